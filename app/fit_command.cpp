@@ -97,8 +97,9 @@ std::vector<double> named_frequencies(const std::string& text, const Band& band)
   return hz;
 }
 
-/// The band in which there are lines.
+/// The band in which there are lines; as it is where there are none, which the fit refuses.
 Band measured_band(const Band& band, const dynamics::FrequencyAxis& axis) {
+  if (axis.size() == 0) return band;
   return {std::max(band.from_hz, axis.hz(0)), std::min(band.to_hz, axis.hz(axis.size() - 1))};
 }
 
@@ -186,7 +187,7 @@ std::string fit_files(const FitRequest& request) {
   found.notes.insert(found.notes.end(), matrix.notes.begin(), matrix.notes.end());
   found.coherence = matrix.coherence;
   found.sources = matrix.files;
-  found.geometry = test_geometry(request.input.geometry, matrix.files);
+  found.geometry = test_geometry(request.input.geometry, matrix.files, found.notes);
   found.command = words_of(request);
   const std::vector<std::string> left = report::write_fit(request.out, found, program_name());
   found.notes.insert(found.notes.end(), left.begin(), left.end());

@@ -48,17 +48,19 @@ report::TestGeometry of_table(const std::string& file) {
 
 }  // namespace
 
-report::TestGeometry test_geometry(const std::string& file, const std::vector<std::string>& measured) {
+report::TestGeometry test_geometry(const std::string& file, const std::vector<std::string>& measured,
+                                   std::vector<std::string>& notes) {
   const auto is_universal = [](const std::string& name) {
     return setup::frf_file_kind(name) == setup::FrfFileKind::universal;
   };
   if (!file.empty()) return is_universal(file) ? of_universal_file(file) : of_table(file);
   for (const std::string& name : measured) {
-    if (!is_universal(name)) continue;
+    if (!is_universal(name) || !io::has_uff_nodes(name)) continue;
     try {
       return of_universal_file(name);
-    } catch (const core::DataError&) {
-      continue;  // FRFs alone
+    } catch (const core::DataError& error) {
+      notes.push_back(std::string("no shapes are drawn on the nodes of a file, for they cannot be read: ") +
+                      error.what() + "; mend them, or name another file by --geometry");
     }
   }
   return {};

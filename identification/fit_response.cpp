@@ -108,6 +108,12 @@ double chi2_of(const MeasuredLines& lines, const std::vector<Eigen::MatrixXcd>& 
   return sum;
 }
 
+/// χ² a degree of freedom of the residues as they were fitted, before passivity moved them.
+double chi2_as_fitted(const ResponseFit& fit) {
+  const ModalFit& found = fit.found.fit;
+  return (fit.passive ? fit.passive->chi2_before : found.chi2) / found.degrees_of_freedom;
+}
+
 std::string name_of_entry(const dynamics::DofTable& responses, const dynamics::DofTable& forces, Eigen::Index row,
                           Eigen::Index column) {
   return dynamics::name(responses[static_cast<std::size_t>(row)]) + "/" +
@@ -140,7 +146,7 @@ std::string worst_place(const ResponseFit& fit, const dynamics::DofTable& respon
 void doubt_misfit(const ResponseFit& fit, const dynamics::DofTable& responses, const dynamics::DofTable& forces,
                   const ResponseFitOptions& options, std::vector<std::string>& doubts) {
   constexpr double much = 1.3;
-  const double chi2 = fit.found.fit.chi2_per_dof();
+  const double chi2 = chi2_as_fitted(fit);
   if (chi2 < much) return;
   std::string doubt = "chi2 a degree of freedom is " + text("%.3g", chi2) + " where 1 is right: most is at " +
                       worst_place(fit, responses, forces);
@@ -165,10 +171,11 @@ void doubt_residues(const ResponseFit& fit, const ResponseFitOptions& options, s
   const ModalFit& found = fit.found.fit;
   if (options.identify.residues == Residues::symmetric) {
     const ModalFit free = modal_fit(fit.lines, poles_of(found), {fit.found.terms, Residues::rank_one});
-    if (found.chi2_per_dof() > 1.3 * free.chi2_per_dof())
+    const double chi2 = chi2_as_fitted(fit);
+    if (chi2 > 1.3 * free.chi2_per_dof())
       doubts.push_back(
           "symmetric residues do not fit: chi2 a degree of freedom is " +
-          text("%.3g with them and %.3g", found.chi2_per_dof(), free.chi2_per_dof()) +
+          text("%.3g with them and %.3g", chi2, free.chi2_per_dof()) +
           " with left and right vectors of their own; the structure is not reciprocal, or a sensor is turned");
   }
   if (options.identify.residues == Residues::free) return;
@@ -200,10 +207,23 @@ void doubt_quantity(const ResponseFit& fit, const dynamics::DofTable& responses,
         (std::abs(degrees) > 135.0 ? "an accelerance, or a sensor or force that is turned" : "a mobility") +
         "; check quantity and direction");
   }
+}
+
+/// Sentences on energy that the model gives, and on what passivity cost where it was asked for.
+void doubt_passivity(const ResponseFit& fit, const dynamics::DofTable& responses, const dynamics::DofTable& forces,
+                     std::vector<std::string>& doubts) {
+  constexpr double much = 1.3;
+  const double chi2 = fit.found.fit.chi2_per_dof();
+  if (fit.passive && chi2 > much * std::max(1.0, chi2_as_fitted(fit)))
+    doubts.push_back("chi2 a degree of freedom is " +
+                     text("%.3g of the passive model and %.3g", chi2, chi2_as_fitted(fit)) +
+                     " without --passive: the lines themselves give energy by more than their noise; a quantity, a "
+                     "direction or the phase of a sensor may be wrong");
+  const dynamics::ResponseModel fitted = fitted_response(fit.found.fit, {fit.lines.hz}, responses, forces);
   if (fit.passive && fit.passive->after > 0.0)
     doubts.push_back("the model could not be made passive: it gives energy by " +
                      text("%.2g", 100.0 * fit.passive->after) +
-                     " % of its size at a line; ask for fewer terms or symmetric residues");
+                     " % of its size at a line; ask for fewer terms, or for symmetric residues");
   else if (const auto check = dynamics::passivity(fitted); check && !check->holds)
     doubts.push_back("the model gives energy at " + text("%.5g", check->frequency_hz) + " Hz, by " +
                      text("%.0f", 100.0 * check->figure) +
@@ -271,12 +291,15 @@ ResponseFit fit_response(const dynamics::ResponseModel& measured, const std::vec
     if (pass > 0) {
       found.diagram = std::move(result.found.diagram);
       found.stable = std::move(result.found.stable);
+      found.added += result.found.added;
+      found.left_out += result.found.left_out;
     }
     result.found = std::move(found);
     fitted = values_of(result.found.fit, result.lines.hz);
   }
   if (options.passive) {
-    PassiveFit passive = made_passive(result.found.fit, result.lines, measured.responses, measured.forces);
+    PassiveFit passive =
+        made_passive(result.found.fit, result.lines, measured.responses, measured.forces, options.identify.residues);
     result.found.fit = std::move(passive.fit);
     result.passive = passive.change;
     fitted = values_of(result.found.fit, result.lines.hz);
@@ -294,6 +317,7 @@ std::vector<std::string> doubts_about(const ResponseFit& fit, const dynamics::Do
   doubt_misfit(fit, responses, forces, options, doubts);
   doubt_residues(fit, options, doubts);
   doubt_quantity(fit, responses, forces, doubts);
+  doubt_passivity(fit, responses, forces, doubts);
   for (const FittedMode& mode : fit.found.fit.modes) {
     if (!std::isfinite(mode.sd_ln_frequency) || !std::isfinite(mode.sd_ln_damping)) {
       doubts.push_back(

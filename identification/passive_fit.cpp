@@ -4,6 +4,8 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "core/dense_eigenvalues.hpp"
@@ -55,7 +57,7 @@ Points points_of(const ModalFit& fit, const std::vector<double>& lines, const st
   return points;
 }
 
-/// A place at which the model gives most energy, relative to its size there.
+/// The largest eigenvalue at a line, and the model's size there.
 struct Peak {
   double hz = 0.0;
   double eigenvalue = 0.0;  ///< of A
@@ -71,11 +73,10 @@ Peak peak_at(const ModalFit& fit, double hz, const Points& points) {
   return {hz, solver.eigenvalues()(last), B.norm(), solver.eigenvectors().col(last)};
 }
 
-/// The local maxima over the lines that are not well below zero.
-std::vector<Peak> peaks_of(const ModalFit& fit, const std::vector<double>& lines, const Points& points) {
+/// The local maxima among all lines that are not well below zero.
+std::vector<Peak> peaks_of(const std::vector<Peak>& all) {
   constexpr double near = -0.05;
-  std::vector<Peak> all, peaks;
-  for (const double f : lines) all.push_back(peak_at(fit, f, points));
+  std::vector<Peak> peaks;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const double here = all[i].eigenvalue;
     const bool highest =
@@ -96,50 +97,78 @@ double share_of(const MeasuredLines& lines, Complex pole, const Eigen::MatrixXcd
   return std::sqrt(sum);
 }
 
-/// A residue's change by an unknown of size 1, by which χ² rises by 1.
+/// The change of a mode by an unknown of size 1, by which χ² rises by 1.
 struct Direction {
   std::size_t mode = 0;
-  bool right = false;  ///< of rank one: the vector that moves
-  Eigen::Index row = 0, column = 0;
-  Complex unit;
-  Eigen::MatrixXcd change;  ///< between the points
+  Eigen::MatrixXcd residue;      ///< of a free residue
+  Eigen::VectorXcd right, left;  ///< of the vectors of rank one
+  Eigen::MatrixXcd change;       ///< of the residue to first order, between the points
 };
 
-/// The directions in which residues move.
-std::vector<Direction> directions_of(const ModalFit& fit, const MeasuredLines& lines, const Points& points) {
-  std::vector<Direction> directions;
-  const auto add = [&](std::size_t mode, bool right, Eigen::Index row, Eigen::Index column, Complex unit,
-                       const Eigen::MatrixXcd& all) {
-    const double share = share_of(lines, fit.modes[mode].pole(), all);
-    directions.push_back({mode, right, row, column, unit / share, points.between(all) / share});
-  };
-  for (std::size_t r = 0; r < fit.modes.size(); ++r) {
-    const FittedMode& mode = fit.modes[r];
-    const Eigen::MatrixXcd zero = Eigen::MatrixXcd::Zero(mode.residue.rows(), mode.residue.cols());
-    for (const Complex unit : {Complex(1.0, 0.0), Complex(0.0, 1.0)}) {
-      if (mode.left.size() == 0) {
-        for (const int i : points.rows) {
-          for (const int j : points.columns) {
-            Eigen::MatrixXcd all = zero;
-            all(i, j) = unit * mode.residue.norm();
-            add(r, false, i, j, all(i, j), all);
-          }
-        }
-        continue;
-      }
-      for (const int i : points.rows) {
-        Eigen::MatrixXcd all = zero;
-        all.row(i) = unit * mode.right.norm() * mode.left.transpose();
-        add(r, true, i, 0, unit * mode.right.norm(), all);
-      }
-      for (const int j : points.columns) {
-        Eigen::MatrixXcd all = zero;
-        all.col(j) = unit * mode.left.norm() * mode.right;
-        add(r, false, 0, j, unit * mode.left.norm(), all);
-      }
+/// The entries between the points, for a free residue.
+void add_entries(const FittedMode& mode, const Points& points, Complex unit, std::vector<Direction>& directions) {
+  for (const int i : points.rows) {
+    for (const int j : points.columns) {
+      Direction direction;
+      direction.residue = Eigen::MatrixXcd::Zero(mode.residue.rows(), mode.residue.cols());
+      direction.residue(i, j) = unit * mode.residue.norm();
+      directions.push_back(std::move(direction));
     }
   }
-  return directions;
+}
+
+/// The entries of both vectors at the points. Those of symmetric residues, whose right vector is c times the left one,
+/// move together: δR = c δL.
+void add_vectors(const FittedMode& mode, const Points& points, Complex unit, Residues form,
+                 std::vector<Direction>& directions) {
+  const Eigen::VectorXcd still_right = Eigen::VectorXcd::Zero(mode.right.size()),
+                         still_left = Eigen::VectorXcd::Zero(mode.left.size());
+  if (form == Residues::symmetric) {
+    const Complex c = mode.left.dot(mode.right) / mode.left.squaredNorm();
+    std::set<int> both(points.rows.begin(), points.rows.end());
+    both.insert(points.columns.begin(), points.columns.end());
+    for (const int i : both) {
+      Direction direction{0, {}, still_right, still_left, {}};
+      direction.left(i) = unit * mode.left.norm();
+      direction.right(i) = c * direction.left(i);
+      directions.push_back(std::move(direction));
+    }
+    return;
+  }
+  for (const int i : points.rows) {
+    Direction direction{0, {}, still_right, still_left, {}};
+    direction.right(i) = unit * mode.right.norm();
+    directions.push_back(std::move(direction));
+  }
+  for (const int j : points.columns) {
+    Direction direction{0, {}, still_right, still_left, {}};
+    direction.left(j) = unit * mode.left.norm();
+    directions.push_back(std::move(direction));
+  }
+}
+
+/// The directions in which residues of a form move.
+std::vector<Direction> directions_of(const ModalFit& fit, const MeasuredLines& lines, const Points& points,
+                                     Residues form) {
+  std::vector<Direction> all;
+  for (std::size_t r = 0; r < fit.modes.size(); ++r) {
+    const FittedMode& mode = fit.modes[r];
+    const bool is_free = mode.left.size() == 0;
+    std::vector<Direction> of_mode;
+    for (const Complex unit : {Complex(1.0, 0.0), Complex(0.0, 1.0)}) {
+      if (is_free) add_entries(mode, points, unit, of_mode);
+      else add_vectors(mode, points, unit, form, of_mode);
+    }
+    for (Direction& direction : of_mode) {
+      const Eigen::MatrixXcd change =
+          is_free ? direction.residue
+                  : Eigen::MatrixXcd(direction.right * mode.left.transpose() + mode.right * direction.left.transpose());
+      const double share = share_of(lines, mode.pole(), change);
+      all.push_back({r, direction.residue / share, direction.right / share, direction.left / share,
+                     points.between(change) / share});
+    }
+  }
+  return all;
 }
 
 /// The smallest x with G x ≤ b (Hildreth 1957).
@@ -182,10 +211,13 @@ void move(ModalFit& fit, const std::vector<Direction>& directions, const Eigen::
   for (std::size_t d = 0; d < directions.size(); ++d) {
     const Direction& direction = directions[d];
     FittedMode& mode = fit.modes[direction.mode];
-    const Complex change = x(static_cast<Eigen::Index>(d)) * direction.unit;
-    if (mode.left.size() == 0) mode.residue(direction.row, direction.column) += change;
-    else if (direction.right) mode.right(direction.row) += change;
-    else mode.left(direction.column) += change;
+    const double by = x(static_cast<Eigen::Index>(d));
+    if (mode.left.size() == 0) {
+      mode.residue += by * direction.residue;
+    } else {
+      mode.right += by * direction.right;
+      mode.left += by * direction.left;
+    }
   }
   for (FittedMode& mode : fit.modes) {
     if (mode.left.size() == 0) continue;
@@ -198,30 +230,33 @@ void move(ModalFit& fit, const std::vector<Direction>& directions, const Eigen::
   }
 }
 
-double excess_of(const std::vector<Peak>& peaks) {
+double excess_of(const std::vector<Peak>& all) {
   double excess = 0.0;
-  for (const Peak& peak : peaks) excess = std::max(excess, peak.eigenvalue / peak.size);
+  for (const Peak& peak : all) excess = std::max(excess, peak.eigenvalue / peak.size);
   return excess;
 }
 
 }  // namespace
 
 PassiveFit made_passive(const ModalFit& fit, const MeasuredLines& measured, const dynamics::DofTable& responses,
-                        const dynamics::DofTable& forces) {
+                        const dynamics::DofTable& forces, Residues form) {
   constexpr int most_steps = 60;
   constexpr double margin = 1e-4;
   PassiveFit result{fit, {}};
+  result.change.chi2_before = fit.chi2;
   const std::vector<Collocated> driving = dynamics::driving_points({{measured.hz}, responses, forces, {}});
   if (driving.empty()) return result;
   const std::vector<double> lines = checked_lines(fit, measured.hz);
   const Points points = points_of(fit, lines, driving);
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0;; ++step) {
     core::check_interrupt();
-    const std::vector<Peak> peaks = peaks_of(result.fit, lines, points);
-    result.change.after = excess_of(peaks);
+    std::vector<Peak> all;
+    for (const double hz : lines) all.push_back(peak_at(result.fit, hz, points));
+    result.change.after = excess_of(all);
     if (step == 0) result.change.before = result.change.after;
-    if (result.change.after == 0.0) break;
-    const std::vector<Direction> directions = directions_of(result.fit, measured, points);
+    if (result.change.after == 0.0 || step == most_steps) break;
+    const std::vector<Peak> peaks = peaks_of(all);
+    const std::vector<Direction> directions = directions_of(result.fit, measured, points, form);
     Eigen::VectorXd room(std::ssize(peaks));
     for (Eigen::Index k = 0; k < room.size(); ++k) {
       const Peak& peak = peaks[static_cast<std::size_t>(k)];

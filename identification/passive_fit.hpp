@@ -10,9 +10,10 @@ namespace thinwall::identification {
 
 /// The change that made a fit passive.
 struct PassiveChange {
-  double before = 0.0;  ///< largest eigenvalue of A over ‖B‖ of the fit as it was, 0 where none is positive
-  double after = 0.0;   ///< that is left of it
+  double before = 0.0;  ///< the largest eigenvalue of A over ‖B‖ at a line, as it was; 0 where none is positive
+  double after = 0.0;   ///< that of the fit returned
   double moved = 0.0;   ///< the largest |δR|/|R| of a mode, Frobenius norms at the driving points
+  double chi2_before = 0.0;  ///< χ² of the fit as it was
 };
 
 /// The fit with other residues.
@@ -29,9 +30,10 @@ struct PassiveFit {
 ///
 /// (fast residue perturbation; Gustavsen 2008), a quadratic problem of few constraints, by Hildreth's method (1957),
 /// until none is violated. The sum, over lines and entries, is taken as that of each unknown alone. Residues of rank
-/// one stay so: their vectors move. Poles and terms stay. The fit comes back as it was where it is passive, or has no
-/// driving point. Cost O(steps · lines · points³).
+/// one stay so: their vectors move, and both by one change where `form` says that they are symmetric. Poles and terms
+/// stay. The fit comes back as it was where it is passive, or has no driving point. Cost O(steps · lines · points³).
 [[nodiscard]] PassiveFit made_passive(const ModalFit& fit, const MeasuredLines& measured,
-                                      const dynamics::DofTable& responses, const dynamics::DofTable& forces);
+                                      const dynamics::DofTable& responses, const dynamics::DofTable& forces,
+                                      Residues form);
 
 }  // namespace thinwall::identification

@@ -121,6 +121,10 @@ std::string line_text(const UffTraceLine& line) {
 
 // ---- Reading ----
 
+bool has_nodes(const UffDataSet& set) {
+  return set.number == 2411 || set.number == 15;
+}
+
 void require_global(const UffRecords& records, long system) {
   if (system == 0 || system == 1) return;
   refuse(records, "a node in coordinate system " + std::to_string(system) + "; export nodes in the global one");
@@ -226,13 +230,19 @@ UffMesh uff_mesh(std::string_view bytes, const std::string& source, std::optiona
   std::optional<UffUnits> units;
   for (const UffDataSet& set : universal_data_sets(bytes, source, mesh.notes)) {
     if (set.number == 164) units = read_units(set);
-    if (set.number == 2411 || set.number == 15) take_nodes(set, metres(units, unit_in_m, set.records), mesh);
+    if (has_nodes(set)) take_nodes(set, metres(units, unit_in_m, set.records), mesh);
     if (set.number == 2412) take_elements(set, mesh);
     if (set.number == 82) take_line(set, mesh);
   }
   if (mesh.nodes.empty()) throw core::DataError(source + ": holds no nodes (data set 2411 or 15)");
   note_unknown(source, mesh);
   return mesh;
+}
+
+bool has_uff_nodes(const std::filesystem::path& path) {
+  UffNotes notes;
+  const std::string bytes = core::read_file(path);
+  return std::ranges::any_of(universal_data_sets(bytes, path.string(), notes), has_nodes);
 }
 
 UffMesh read_uff_mesh(const std::filesystem::path& path, std::optional<double> unit_in_m) {

@@ -69,6 +69,9 @@ void write_uff_mesh(const std::filesystem::path& path, const UffMesh& mesh);
 [[nodiscard]] UffMesh uff_mesh(std::string_view bytes, const std::string& source,
                                std::optional<double> unit_in_m = std::nullopt);
 
+/// True if a file has a data set of nodes (2411 or 15), readable or not. Throws as universal_data_sets().
+[[nodiscard]] bool has_uff_nodes(const std::filesystem::path& path);
+
 /// The geometry of a file, as uff_mesh() gives it.
 [[nodiscard]] UffMesh read_uff_mesh(const std::filesystem::path& path, std::optional<double> unit_in_m = std::nullopt);
 

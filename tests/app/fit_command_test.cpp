@@ -257,6 +257,26 @@ TEST_F(Fit, ShowsShapesOnPointsWithPlaces) {
   EXPECT_EQ(command({"fit", path("robot.csv"), "--geometry", path("none.csv"), "--out", path("out")}).code, 4);
 }
 
+/// Nodes of a measured file that cannot be read are told; a file of FRFs alone has nothing to tell.
+TEST_F(Fit, TellsOfNodesThatItCannotRead) {
+  io::write_uff(path("alone.uff"), measured);
+  const std::string frfs = core::read_file(path("alone.uff"));
+  const auto with_nodes = [&](const std::string& name, const std::string& x) {
+    core::write_file_atomically(path(name), frfs + "    -1\n    15\n         1         0         0         7" + x +
+                                                "  0.00000e+00  0.00000e+00\n    -1\n");
+    return command({"fit", path(name), "--out", path("out")});
+  };
+  const Outcome alone = command({"fit", path("alone.uff"), "--out", path("out")});
+  EXPECT_EQ(alone.out.find("no shapes are drawn"), std::string::npos) << alone.out;
+  const Outcome broken = with_nodes("broken.uff", "  1.0000metre");
+  ASSERT_EQ(broken.code, 0) << broken.err;
+  EXPECT_NE(broken.out.find("no shapes are drawn"), std::string::npos) << broken.out;
+  EXPECT_NE(broken.out.find("broken.uff:"), std::string::npos) << broken.out;
+  const Outcome whole = with_nodes("whole.uff", "  1.00000e+00");
+  ASSERT_EQ(whole.code, 0) << whole.err;
+  EXPECT_EQ(whole.out.find("no shapes are drawn"), std::string::npos) << whole.out;
+}
+
 /// Arrays of another program, by the names of their variables.
 TEST_F(Fit, ReadsArraysOfMatFiles) {
   io::write_mat_response(path("ours.mat"), {measured, {}, {}});

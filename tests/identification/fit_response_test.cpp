@@ -53,6 +53,9 @@ TEST(FitResponse, FindsTheModesByTheScatterOfTheLines) {
   const ResponseFit fit = fit_response(measured, {});
   ASSERT_EQ(fit.found.fit.modes.size(), truth.size());
   EXPECT_EQ(fit.weights, Weights::scatter);
+  // Modes that were added and left out are counted over all passes.
+  EXPECT_EQ(static_cast<int>(fit.found.stable.size()) + fit.found.added - fit.found.left_out,
+            static_cast<int>(fit.found.fit.modes.size()));
   for (std::size_t r = 0; r < truth.size(); ++r) {
     const FittedMode& mode = fit.found.fit.modes[r];
     EXPECT_LT(std::abs(std::log(mode.frequency_hz / truth[r].frequency_hz)), 4.0 * mode.sd_ln_frequency) << r;

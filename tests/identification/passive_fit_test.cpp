@@ -4,7 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
 
 #include "core/dense_eigenvalues.hpp"
 #include "dynamics/frf_checks.hpp"
@@ -39,15 +43,17 @@ ModalFit structure(double degrees) {
   return fit;
 }
 
-/// The largest eigenvalue of (H − Hᴴ)/(2i) over ‖H‖ on lines between those that were given.
+/// The largest eigenvalue of (H − Hᴴ)/(2i) over ‖H‖ at a line.
+double energy_given(const ModalFit& fit, double hz) {
+  const Eigen::MatrixXcd H = value(fit, hz);
+  const Eigen::MatrixXcd A = (H - H.adjoint()) / std::complex<double>(0.0, 2.0);
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd>(A).eigenvalues()(1) / H.norm();
+}
+
+/// The largest of it on lines between those that were given.
 double energy_given(const ModalFit& fit) {
   double largest = -1.0;
-  for (double hz = 20.05; hz < 400.0; hz += 0.1) {
-    const Eigen::MatrixXcd H = value(fit, hz);
-    const Eigen::MatrixXcd A = (H - H.adjoint()) / std::complex<double>(0.0, 2.0);
-    const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd>(A).eigenvalues();
-    largest = std::max(largest, eigenvalues(1) / H.norm());
-  }
+  for (double hz = 20.05; hz < 400.0; hz += 0.1) largest = std::max(largest, energy_given(fit, hz));
   return largest;
 }
 
@@ -64,7 +70,7 @@ MeasuredLines lines_of(const ModalFit& fit) {
 
 TEST(PassiveFit, LeavesAPassiveFitAsItIs) {
   const ModalFit fit = structure(0.0);
-  const PassiveFit passive = made_passive(fit, lines_of(fit), dofs, dofs);
+  const PassiveFit passive = made_passive(fit, lines_of(fit), dofs, dofs, Residues::rank_one);
   EXPECT_EQ(passive.change.before, 0.0);
   EXPECT_EQ(passive.change.moved, 0.0);
   for (std::size_t r = 0; r < fit.modes.size(); ++r) EXPECT_EQ(passive.fit.modes[r].residue, fit.modes[r].residue) << r;
@@ -73,20 +79,23 @@ TEST(PassiveFit, LeavesAPassiveFitAsItIs) {
 /// A residue whose phase is off by some degrees gives energy beside its resonance; it moves by about that angle at
 /// most, and stays of rank one.
 TEST(PassiveFit, MovesResiduesAsLittleAsNeeded) {
-  for (const bool free : {false, true}) {
+  for (const Residues form : {Residues::rank_one, Residues::symmetric, Residues::free}) {
     ModalFit fit = structure(8.0);
-    if (free) {
+    if (form == Residues::free) {
       for (FittedMode& mode : fit.modes) mode.left = mode.right = Eigen::VectorXcd();
     }
     ASSERT_GT(energy_given(fit), 0.01);
-    const PassiveFit passive = made_passive(fit, lines_of(fit), dofs, dofs);
+    const PassiveFit passive = made_passive(fit, lines_of(fit), dofs, dofs, form);
     EXPECT_EQ(passive.change.after, 0.0);
     EXPECT_GT(passive.change.before, 0.01);
     EXPECT_LT(energy_given(passive.fit), 1e-4) << "between the lines";
     EXPECT_GT(passive.change.moved, 0.01);
     EXPECT_LT(passive.change.moved, 8.0 * std::numbers::pi / 180.0 + 0.01);
     for (const FittedMode& mode : passive.fit.modes) {
-      if (free) continue;
+      if (form == Residues::symmetric) {
+        EXPECT_LT((mode.residue - mode.residue.transpose()).norm(), 1e-14 * mode.residue.norm());
+      }
+      if (form == Residues::free) continue;
       EXPECT_LT((mode.residue - mode.right * mode.left.transpose()).norm(), 1e-15 * mode.residue.norm() + 1e-30);
       EXPECT_NEAR(mode.left.cwiseAbs().maxCoeff(), 1.0, 1e-12);
     }
@@ -111,6 +120,52 @@ TEST(PassiveFit, CostsLittleOfTheFit) {
   EXPECT_GE(passive.found.fit.chi2, plain.found.fit.chi2);
   EXPECT_LT(passive.found.fit.chi2_per_dof(), 1.1 * plain.found.fit.chi2_per_dof());
   EXPECT_LT(energy_given(passive.found.fit), 1e-3);
+}
+
+/// A mode of one shape cannot take back energy that terms give along the other direction: what is left is that of the
+/// fit returned. Both points are alike, so that no scale of theirs enters.
+TEST(PassiveFit, TellsWhatIsLeftOfTheFitThatItReturns) {
+  ModalFit fit = structure(0.0);
+  fit.modes.resize(1);
+  FittedMode& mode = fit.modes.front();
+  mode.left = Eigen::Vector2cd(1.0, 1.0);
+  mode.right = mode.left / std::complex<double>(0.0, 2.0 * mode.pole().imag());
+  mode.residue = mode.right * mode.left.transpose();
+  fit.powers = {Eigen::MatrixXd::Zero(2, 2), 1e-9 * Eigen::MatrixXd::Identity(2, 2)};
+  const MeasuredLines lines = lines_of(fit);
+  const PassiveFit passive = made_passive(fit, lines, dofs, dofs, Residues::rank_one);
+  double largest = 0.0;
+  for (const double hz : lines.hz) largest = std::max(largest, energy_given(passive.fit, hz));
+  for (int i = -4; i <= 4; ++i)
+    largest = std::max(largest, energy_given(passive.fit, mode.frequency_hz * (1.0 + 0.5 * i * mode.damping_ratio)));
+  ASSERT_GT(largest, 1e-3);
+  EXPECT_NEAR(passive.change.after, largest, 1e-9 * largest);
+}
+
+/// Symmetric lines that give energy by more than their noise: the doubt is about that, not about the form, and χ² as
+/// it was before tells.
+TEST(PassiveFit, IsNoReasonToDoubtTheFormOfTheResidues) {
+  Draw draw(23);
+  const MeasuredLines measured = testing::lines_of(structure(8.0).modes, 400, 0.005, draw);
+  const dynamics::ResponseModel response{{measured.hz}, dofs, dofs, measured.H};
+  ResponseFitOptions options;
+  options.noise = Eigen::MatrixXd::Constant(1, 1, 0.005 / std::numbers::sqrt2);
+  options.identify.terms = ResidualTerms{false, 0};
+  options.identify.residues = Residues::symmetric;
+  options.passive = true;
+  const ResponseFit fit = fit_response(response, {}, options);
+  ASSERT_TRUE(fit.passive);
+  EXPECT_EQ(fit.passive->after, 0.0);
+  EXPECT_NEAR(fit.passive->chi2_before / fit.found.fit.degrees_of_freedom, 1.0, 0.15);
+  ASSERT_GT(fit.found.fit.chi2_per_dof(), 1.5);
+  const std::vector<std::string> doubts = doubts_about(fit, dofs, dofs, options);
+  const auto any = [&](const char* words) {
+    return std::ranges::any_of(doubts,
+                               [&](const std::string& doubt) { return doubt.find(words) != std::string::npos; });
+  };
+  EXPECT_TRUE(any("without --passive"));
+  EXPECT_FALSE(any("symmetric residues do not fit"));
+  EXPECT_FALSE(any("where 1 is right"));
 }
 
 }  // namespace

@@ -59,7 +59,8 @@ function remarks({ figures, notes }) {
 }
 
 function misfitTable({ misfit, responses, forces }) {
-  const most = 40;
-  const shown = misfit.slice(0, most).map((row, i) => [responses[i], ...row.slice(0, 12).map((m) => percent(m, 2))]);
-  return [table('Misfit (response by force)', ['', ...forces.slice(0, 12)], shown), misfit.length > most && el('p', { class: 'note' }, `${misfit.length - most} more responses are in fit.json.`)];
+  const [mostRows, mostColumns] = [40, 12];
+  const shown = misfit.slice(0, mostRows).map((row, i) => [responses[i], ...row.slice(0, mostColumns).map((m) => percent(m, 2))]);
+  const more = [[responses.length - mostRows, 'responses'], [forces.length - mostColumns, 'forces']].filter(([n]) => n > 0).map(([n, what]) => `${n} more ${what}`);
+  return [table('Misfit (response by force)', ['', ...forces.slice(0, mostColumns)], shown), more.length > 0 && el('p', { class: 'note' }, `${more.join(' and ')} are in fit.json.`)];
 }

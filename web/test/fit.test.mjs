@@ -135,6 +135,18 @@ for (const file of pages) {
   });
 }
 
+describe('a fit of many forces', () => {
+  test('tells how many the table of misfits leaves out', { skip: given.length > 0 }, async () => {
+    const data = fitted();
+    const forces = Array.from({ length: 14 }, (_, i) => `${i + 1}.x`);
+    Object.assign(data.fit.figures, { forces, misfit: data.fit.figures.misfit.map(([m]) => forces.map(() => m)) });
+    const page = await open(browser, made('wide', data));
+    assert.equal((await rows(page, 'Misfit (response by force)'))[0].length, 1 + 12);
+    assert.match(await page.locator('#misfit').textContent(), /2 more forces are in fit\.json/);
+    await page.context().close();
+  });
+});
+
 describe('the choice of poles', () => {
   test('a click adds a pole, another takes it back', () => {
     assert.deepEqual(toggled([60, 180], 100), [60, 100, 180]);
