@@ -97,8 +97,9 @@ std::vector<double> named_frequencies(const std::string& text, const Band& band)
   return hz;
 }
 
-/// The band in which there are lines.
+/// The band in which there are lines; the band itself of a file without lines, which the fit refuses.
 Band measured_band(const Band& band, const dynamics::FrequencyAxis& axis) {
+  if (axis.size() == 0) return band;
   return {std::max(band.from_hz, axis.hz(0)), std::min(band.to_hz, axis.hz(axis.size() - 1))};
 }
 

@@ -25,7 +25,7 @@ struct Identification {
   ResidualTerms terms;
   std::vector<OrderPoles> diagram;  ///< empty where poles were given
   std::vector<StablePole> stable;   ///< that the fit started from
-  int added = 0, left_out = 0;      ///< modes, against the diagram
+  int added = 0, left_out = 0;  ///< modes, against the poles of this search's start: the diagram's, or options.start
 };
 
 /// From the stable poles of plscf():
