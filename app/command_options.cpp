@@ -73,6 +73,29 @@ void describe_lobes(CLI::App& app, Arguments& arguments) {
   add_run_arguments(*command, arguments);
 }
 
+/// The options on what the files of a fit hold.
+void add_fit_input(CLI::App& command, FitInput& input) {
+  command.add_option("--quantity", input.quantity, "what FRFs are, where files do not say")
+      ->type_name("receptance|mobility|accelerance");
+  command.add_option("--unit", input.unit, "of FRFs: m/N, um/N, m/s/N, m/s^2/N …")->type_name("UNIT");
+  command.add_option("--frequency-unit", input.frequency_unit, "of FRFs (default: Hz)")->type_name("Hz|rad/s");
+  command
+      .add_option("--variable", input.variable, "of another program's MAT file: the FRF, H00 or H(2,1,:), or an array")
+      ->type_name("NAME");
+  command.add_option("--frequency-variable", input.frequency_variable, "beside it: the frequencies")->type_name("NAME");
+  command.add_option("--coherence-variable", input.coherence_variable, "beside it: the coherence of an array")
+      ->type_name("NAME");
+  command
+      .add_option("--responses", input.responses,
+                  "DOFs of an array: \"1.x, 2.x\"; responses x forces x lines, or lines first")
+      ->type_name("DOFS");
+  command.add_option("--forces", input.forces, "DOFs of an array: \"1.x\"")->type_name("DOFS");
+  command
+      .add_option("--geometry", input.geometry,
+                  "places of the points, for the page: UFF, or CSV with point, x_m, y_m, z_m")
+      ->type_name("FILE");
+}
+
 void describe_fit(CLI::App& app, FitRequest& fit) {
   auto* command =
       app.add_subcommand("fit", "modes with their uncertainty from measured FRFs, as tables that a case reads");
@@ -83,27 +106,7 @@ void describe_fit(CLI::App& app, FitRequest& fit) {
           "is P.x/Q.y=FILE (response and force), or x=FILE, xy=FILE at a tool's tip; FILE alone is x")
       ->type_name("FILE")
       ->required();
-  command->add_option("--quantity", fit.input.quantity, "what FRFs are, where files do not say")
-      ->type_name("receptance|mobility|accelerance");
-  command->add_option("--unit", fit.input.unit, "of FRFs: m/N, um/N, m/s/N, m/s^2/N …")->type_name("UNIT");
-  command->add_option("--frequency-unit", fit.input.frequency_unit, "of FRFs (default: Hz)")->type_name("Hz|rad/s");
-  command
-      ->add_option("--variable", fit.input.variable,
-                   "of another program's MAT file: the FRF, H00 or H(2,1,:), or an array")
-      ->type_name("NAME");
-  command->add_option("--frequency-variable", fit.input.frequency_variable, "beside it: the frequencies")
-      ->type_name("NAME");
-  command->add_option("--coherence-variable", fit.input.coherence_variable, "beside it: the coherence of an array")
-      ->type_name("NAME");
-  command
-      ->add_option("--responses", fit.input.responses,
-                   "DOFs of an array: \"1.x, 2.x\"; responses x forces x lines, or lines first")
-      ->type_name("DOFS");
-  command->add_option("--forces", fit.input.forces, "DOFs of an array: \"1.x\"")->type_name("DOFS");
-  command
-      ->add_option("--geometry", fit.input.geometry,
-                   "places of the points, for the page: UFF, or CSV with point, x_m, y_m, z_m")
-      ->type_name("FILE");
+  add_fit_input(*command, fit.input);
   command->add_option("--from", fit.from, "first frequency: \"20 Hz\" (default: all)")->type_name("FREQUENCY");
   command->add_option("--to", fit.to, "last frequency")->type_name("FREQUENCY");
   command
