@@ -1,9 +1,8 @@
 #include "app/postures_command.hpp"
 
-#include <sstream>
-
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/split.hpp"
 #include "core/units.hpp"
 #include "io/results/csv_table.hpp"
 #include "report/postures/posture_files.hpp"
@@ -27,11 +26,8 @@ double quantity(const std::string& text, const core::QuantityKind& kind, const s
 }
 
 study::PostureQuestions questions_of(const std::string& parts) {
-  std::vector<std::string> words;
-  std::istringstream text(parts);
-  for (std::string word; std::getline(text, word, ',');) words.push_back(word);
   try {
-    return study::questions_on(words);
+    return study::questions_on(core::split(parts, ','));
   } catch (const core::InputError& error) {
     throw core::UsageError("--parts: " + std::string(error.what()));
   }
@@ -54,7 +50,7 @@ Eigen::MatrixXd places_of(const std::string& file, const std::vector<std::string
 
 const std::vector<std::string>& columns_of(const cases::Case& source) {
   static const std::vector<std::string> none;
-  const auto* robot = source.robot ? std::get_if<setup::TabledRobot>(&source.robot->model) : nullptr;
+  const setup::TabledRobot* robot = setup::tabled_robot(source.robot);
   return robot != nullptr && robot->postures ? robot->postures->over : none;
 }
 

@@ -14,7 +14,7 @@ namespace {
 using identification::FittedMode;
 
 Eigen::VectorXd depths_of(const std::vector<FittedMode>& modes, const PostureCut& cut, const Eigen::MatrixXd& rest) {
-  if (modes.empty())
+  if (modes.empty() && !cut.beside && rest.size() == 0)
     return Eigen::VectorXd::Constant(std::ssize(cut.spindle_speeds_rpm), std::numeric_limits<double>::infinity());
   return limiting_depths(modes, cut, rest);
 }
@@ -38,7 +38,10 @@ BandEnvelope band_envelope(const std::vector<FittedMode>& modes, const PostureCu
                            const Eigen::MatrixXd& rest) {
   std::vector<FittedMode> low, high;
   for (const FittedMode& mode : modes) (mode.frequency_hz < split_hz ? low : high).push_back(mode);
-  BandEnvelope result{split_hz, depths_of(low, cut, {}), depths_of(high, cut, rest), {}, depths_of(modes, cut, rest)};
+  PostureCut robot_alone = cut;
+  robot_alone.beside.reset();
+  BandEnvelope result{
+      split_hz, depths_of(low, robot_alone, {}), depths_of(high, cut, rest), {}, depths_of(modes, cut, rest)};
   result.lower = result.low.cwiseMin(result.high);
   return result;
 }

@@ -8,7 +8,7 @@
 
 namespace thinwall::posture {
 
-/// Limiting depths, m, at each speed of a cut. Infinite where there is no mode.
+/// Limiting depths, m, at each speed of a cut. Infinite where nothing yields.
 struct BandEnvelope {
   double split_hz = 0.0;      ///< modes below it are the low ones
   Eigen::VectorXd low, high;  ///< of the low and of the high modes alone
@@ -21,8 +21,9 @@ struct BandEnvelope {
 [[nodiscard]] double widest_gap_hz(const std::vector<identification::FittedMode>& modes);
 
 /// Stability of the low and of the high modes separately and the lowest envelope of both, as Lei 2022, Fig. 29 has it,
-/// beside the stability of all modes together. The rest (m/N; empty: none) counts to the high ones, whose cuts are fast
-/// enough to feel it. Throws as limiting_depths(). Cost: three times that.
+/// beside the stability of all modes together. The rest (m/N; empty: none) and what yields beside the robot
+/// (`cut.beside`, as a tool) count to the high ones, whose cuts are fast enough to feel them. Throws as
+/// limiting_depths(). Cost: three times that.
 [[nodiscard]] BandEnvelope band_envelope(const std::vector<identification::FittedMode>& modes, const PostureCut& cut,
                                          double split_hz, const Eigen::MatrixXd& rest = {});
 

@@ -75,6 +75,12 @@ void cut_ranks(std::vector<FittedMode>& modes) {
   }
 }
 
+/// A matrix over responses and references without its cross terms, where the cut leaves these out.
+template <class Matrix>
+Matrix felt(const Matrix& matrix, const PostureCut& cut) {
+  return cut.cross_terms ? matrix : Matrix(matrix.diagonal().asDiagonal());
+}
+
 }  // namespace
 
 std::vector<FittedMode> expected_modes(const PosturePrediction& prediction) {
@@ -150,7 +156,7 @@ milling::RelativeStructure structure_of(const std::vector<FittedMode>& modes, co
                                         const Eigen::MatrixXd& rest) {
   milling::RelativeStructure structure;
   for (const FittedMode& mode : modes) {
-    const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(mode.residue, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(felt(mode.residue, cut), Eigen::ComputeThinU | Eigen::ComputeThinV);
     const Eigen::VectorXd& size = svd.singularValues();
     const Eigen::Index before = structure.poles.size(), ranks = (size.array() > 1e-9 * size(0)).count();
     structure.poles.conservativeResize(before + ranks);
@@ -160,7 +166,7 @@ milling::RelativeStructure structure_of(const std::vector<FittedMode>& modes, co
     structure.phi.rightCols(ranks) = cut.responses * svd.matrixU().leftCols(ranks) * size.head(ranks).asDiagonal();
     structure.b.rightCols(ranks) = cut.references * svd.matrixV().leftCols(ranks).conjugate();
   }
-  if (rest.size() > 0) structure.R = cut.responses * rest * cut.references.transpose();
+  if (rest.size() > 0) structure.R = cut.responses * felt(rest, cut) * cut.references.transpose();
   return cut.beside ? milling::sum(structure, *cut.beside) : structure;
 }
 

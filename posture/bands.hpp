@@ -55,6 +55,8 @@ struct PostureCut {
   std::vector<double> spindle_speeds_rpm;
   milling::StabilityOptions stability;
   std::optional<milling::RelativeStructure> beside{};  ///< what yields beside the robot, as a tool; part axes
+  bool cross_terms = true;  ///< false: a force yields a response along its own reference alone, as
+                            ///< robot::without_cross_terms() has it; responses are then the references
 };
 
 /// The structure that the cut feels, with what yields beside the robot. A residue gives as many pairs of shapes as its

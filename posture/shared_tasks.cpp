@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <utility>
 
 #include "core/error.hpp"
@@ -41,6 +40,15 @@ std::vector<SeenMode> seen_modes(const std::vector<TappedPosture>& postures) {
     modes.push_back(std::move(mode));
   }
   return modes;
+}
+
+/// The number of a mode's postures outside of the fold that has most of them.
+std::size_t fewest_beside_a_fold(const SeenMode& mode, const std::vector<int>& fold) {
+  std::map<int, std::size_t> in;
+  for (const std::size_t i : mode.postures) ++in[fold[i]];
+  std::size_t most = 0;
+  for (const auto& [number, postures] : in) most = std::max(most, postures);
+  return mode.postures.size() - most;
 }
 
 /// The columns of one place each, for the places of a mode.
@@ -102,9 +110,7 @@ std::vector<SharedTasks> alone_and_together(const std::vector<TappedPosture>& po
                            std::to_string(postures.size()) + " postures; must be as many");
   std::vector<SharedTasks> all;
   for (const SeenMode& mode : seen_modes(postures)) {
-    std::set<int> folds;
-    for (const std::size_t i : mode.postures) folds.insert(fold[i]);
-    if (mode.postures.size() < fewest_postures || folds.size() < 2) continue;
+    if (mode.postures.size() < fewest_postures || fewest_beside_a_fold(mode, fold) < 2) continue;
     for (const NumberGroup group :
          {NumberGroup::frequency_and_damping, NumberGroup::real_parts, NumberGroup::imaginary_parts}) {
       SharedTasks tasks{.label = mode.label, .group = group, .postures = mode.postures};

@@ -46,9 +46,9 @@ struct SharedTasks {
 
 /// Learns the numbers of each group of each mode alone (regression::GaussianProcess of one task) and together (of
 /// several, intrinsic coregionalisation), from all folds but one, for each fold, and from all. Modes that fewer than
-/// eight postures, or those of one fold alone, have seen are left out. Throws InputError as cross_validate(), and
-/// NumericalError as GaussianProcess. Cost: for each group a search (regression::fit()) a number and
-/// one together, and one of a single start for each fold, shared out among core::thread_count() threads.
+/// eight postures have seen, or fewer than two outside of some fold, are left out. Throws InputError as
+/// cross_validate(), and NumericalError as GaussianProcess. Cost: for each group a search (regression::fit()) a number
+/// and one together, and one of a single start for each fold, shared out among core::thread_count() threads.
 [[nodiscard]] std::vector<SharedTasks> alone_and_together(const std::vector<TappedPosture>& postures,
                                                           const std::vector<int>& fold,
                                                           const regression::SearchOptions& options = {.starts = 4});

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/interrupt.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
 #include "posture/hull.hpp"
@@ -33,6 +34,7 @@ Eigen::MatrixXd grid_within_hull(const Eigen::MatrixXd& places, int count) {
   const Eigen::RowVectorXd low = places.colwise().minCoeff(), high = places.colwise().maxCoeff();
   std::vector<Eigen::RowVectorXd> inside;
   for (long number = 0; number < std::lround(size); ++number) {
+    core::check_interrupt();
     Eigen::RowVectorXd at = low;
     long rest = number;
     for (Eigen::Index c = places.cols() - 1; c >= 0; --c, rest /= count)

@@ -204,9 +204,7 @@ py::dict study_postures(const LoadedCase& loaded, const std::optional<OneOrMore<
   return dict_of(answers(loaded, questions));
 }
 
-}  // namespace
-
-void bind_study(py::module_& module) {
+void bind_case(py::module_& module) {
   py::class_<LoadedCase>(module, "Case", "A case, as read from its file.")
       .def_static("load", load, "path"_a, "overrides"_a = OneOrMore<std::string>{},
                   "A case from its folder or its file. overrides: \"key=value\" as on the command line. Raises\n"
@@ -231,6 +229,9 @@ void bind_study(py::module_& module) {
                     (c.overrides.empty() ? "" : "; " + listed("overrides", c.overrides)) + ">";
            })
       .def(py::pickle(&members_of, &case_of));
+}
+
+void bind_results(py::module_& module) {
   py::class_<study::Results>(module, "StudyResults", "All results of a run, in memory.")
       .def_property_readonly(
           "summary", [](const study::Results& r) { return py::module_::import("json").attr("loads")(summary_text(r)); },
@@ -254,6 +255,13 @@ void bind_study(py::module_& module) {
         for (const auto& [name, chart] : charts(r)) lobes.push_back(name);
         return "<StudyResults: " + listed("charts", lobes) + "; " + listed("responses", frf) + ">";
       });
+}
+
+}  // namespace
+
+void bind_study(py::module_& module) {
+  bind_case(module);
+  bind_results(module);
   module.def("check", check, "path"_a, "overrides"_a = OneOrMore<std::string>{},
              "Every problem of a case, one line each with its place; empty if there is none. Nothing is computed.");
   module.def("run", run, "case"_a, "progress"_a = py::none(),

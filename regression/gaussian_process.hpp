@@ -36,11 +36,12 @@ struct Fit {
 };
 
 /// The number of starts that a search makes: `options.starts`, and at most four of more than a hundred parameters, as
-/// twelve tasks have, of which a search takes a thousand likelihoods.
+/// thirteen tasks over three dimensions have (107), of which a search takes a thousand likelihoods.
 [[nodiscard]] int search_starts(const SearchOptions& options, Eigen::Index dimensions, Eigen::Index tasks);
 
-/// Type-II maximum likelihood (Rasmussen & Williams 2006, ch. 5.4) by L-BFGS within bounds, and after it where it ended
-/// worse than the best start SLSQP, or L-BFGS again of more than 60 parameters (NLopt; Nocedal 1980, Kraft 1994).
+/// Type-II maximum likelihood (Rasmussen & Williams 2006, ch. 5.4) by L-BFGS within bounds, and after it, from the best
+/// end and from those that are worse than it, SLSQP, or L-BFGS again of more than 60 parameters (NLopt; Nocedal 1980,
+/// Kraft 1994).
 /// Starts are shared out among core::thread_count() threads. Likelihoods have several maxima: `of_starts` tells how
 /// many starts reached the best. `data` have targets of the order of 1: see standardised().
 /// Throws InputError for fewer observations of a task than two, or a number among inputs that is not finite;

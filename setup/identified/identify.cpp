@@ -27,14 +27,13 @@ std::size_t draws_of_tool(const CutSetup& source) {
   return source.tool && source.tool->fitted ? source.tool->fitted->drawn.size() : 0;
 }
 
-/// The joints of the arm that is the mean, at the posture that is asked for.
+}  // namespace
+
 Eigen::VectorXd asked_joints(const Setup& source, const TabledRobot& robot) {
   if (!robot.mean) return {};
   Eigen::VectorXd q = joints_from_columns(robot);
   return q.size() > 0 ? q : wished_joints(source, source, *robot.mean);
 }
-
-}  // namespace
 
 bool awaits_fit(const CutSetup& source) {
   return source.tool && source.tool->fit && !source.tool->fitted;

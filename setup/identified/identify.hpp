@@ -2,6 +2,7 @@
 // Models of a set-up that are found from measurements before a chart is computed: a fitted tool, a robot that is
 // learned from postures.
 
+#include <Eigen/Core>
 #include <cstddef>
 
 #include "setup/machining_setup.hpp"
@@ -13,6 +14,10 @@ namespace thinwall::setup {
 
 /// True if a robot's modes are to be learned from postures and are not yet.
 [[nodiscard]] bool awaits_learning(const SupportSetup& source);
+
+/// The joints q (rad, m), at the posture that is asked for, of the arm that is the mean of a robot's learned modes: by
+/// the columns of robot.over, else by its own posture (wished_joints(), whose errors it has). Empty without an arm.
+[[nodiscard]] Eigen::VectorXd asked_joints(const Setup& source, const TabledRobot& robot);
 
 /// Fits the tool (fitted_tip()) and learns the robot's modes (learned_modes()) where that is asked for and not done.
 /// Errors as theirs; those of the fit name tool.fit. Cost: theirs.

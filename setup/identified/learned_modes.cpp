@@ -7,8 +7,6 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "posture/bands.hpp"
-#include "posture/predictor.hpp"
-#include "robot/modal_table.hpp"
 #include "setup/identified/arm_mean.hpp"
 #include "setup/identified/draws.hpp"
 #include "setup/identified/posture_tables.hpp"
@@ -28,25 +26,41 @@ std::string span(const std::vector<posture::PredictedMode>& modes, Eigen::Index 
 
 }  // namespace
 
+PostureLearning posture_learning(const TabledRobot& robot, const Eigen::VectorXd& asked_joints) {
+  PostureLearning learning{tapped_at_tip(robot), {}, {scaled_places(robot).at, {}, {}}, {}};
+  if (robot.mean)
+    learning.options.mean = calibrated_mean(robot, tapped_arm(robot, tip_dofs(robot)), asked_joints, learning.postures,
+                                            learning.asked, learning.note);
+  return learning;
+}
+
+posture::Place place_at(TabledRobot robot, const PostureLearning& learning, const std::vector<double>& at) {
+  if (at == robot.postures->at) return learning.asked;
+  robot.postures->at = at;
+  posture::Place place{scaled_places(robot).at, {}, {}};
+  if (!learning.options.mean) return place;
+  place.q = joints_from_columns(robot);
+  if (place.q.size() == 0)
+    throw core::InputError(
+        "the joints of the arm are known at the tapped postures and at robot.at alone; name the columns of "
+        "robot.joint_columns in robot.over, or ask for no other places");
+  if (learning.asked.turn.responses.size() > 0) place.turn = posture::tip_turn(*learning.options.mean, place.q);
+  return place;
+}
+
 LearnedModes learned_modes(const TabledRobot& robot, const Eigen::VectorXd& asked_joints) {
   if (!robot.postures || !robot.tapped)
     throw core::InputError("\"" + robot.table.string() + "\" was not read; call setup::read_data_files()");
-  const ScaledPlaces scaled = scaled_places(robot);
-  const dynamics::DofTable dofs = robot::at_point(robot.tapped->tables.front(), robot.table_point).dofs;
-  std::vector<posture::TappedPosture> postures = tapped_at_tip(robot);
-  posture::Place asked{scaled.at, {}, {}};
-  posture::PredictorOptions options;
-  std::string of_mean;
-  if (robot.mean)
-    options.mean = calibrated_mean(robot, tapped_arm(robot, dofs), asked_joints, postures, asked, of_mean);
-  const posture::Predictor predictor(std::move(postures), options);
-  const posture::PosturePrediction there = predictor.predict(asked);
+  const dynamics::DofTable dofs = tip_dofs(robot);
+  PostureLearning learning = posture_learning(robot, asked_joints);
+  const posture::Predictor predictor(std::move(learning.postures), learning.options);
+  const posture::PosturePrediction there = predictor.predict(learning.asked);
   LearnedModes result{table_of(posture::expected_modes(there), dofs), {}};
   for (auto& modes : posture::drawn_modes(there, identified_draws))
     result.learned.drawn.push_back(table_of(std::move(modes), dofs));
   result.learned.summary = "the robot's modes are learned from " + std::to_string(robot.tapped->names.size()) +
                            " postures: frequencies within " + span(there.modes, 0) + ", damping ratios within " +
-                           span(there.modes, 1) + " (one standard deviation)" + of_mean;
+                           span(there.modes, 1) + " (one standard deviation)" + learning.note;
   return result;
 }
 

@@ -1,10 +1,34 @@
 #pragma once
 // The modes of a robot's tip at a posture where it was not tapped, learned from tables at others.
 
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
 #include "dynamics/modal_table.hpp"
+#include "posture/predictor.hpp"
 #include "setup/robot.hpp"
 
 namespace thinwall::setup {
+
+/// The postures that a posture::Predictor learns from, and the way in which it does.
+struct PostureLearning {
+  std::vector<posture::TappedPosture> postures;
+  posture::PredictorOptions options;  ///< with the calibrated arm, where the robot has one as its mean
+  posture::Place asked;               ///< robot.at
+  std::string note{};                 ///< a clause on the calibration; empty without an arm
+};
+
+/// The postures of a robot whose postures were read, with the arm that was calibrated on them where there is one
+/// (arm_mean.hpp); its joints at robot.at are `asked_joints`, rad (m). Errors as calibrated_mean(). Cost: that of the
+/// calibration.
+[[nodiscard]] PostureLearning posture_learning(const TabledRobot& robot, const Eigen::VectorXd& asked_joints = {});
+
+/// Another place, `at` as the columns of robot.over have it, scaled, with the joints of the arm. Throws InputError for
+/// an arm whose joints these columns do not tell (joints_from_columns()) at another place than robot.at, and as
+/// posture::tip_turn().
+[[nodiscard]] posture::Place place_at(TabledRobot robot, const PostureLearning& learning,
+                                      const std::vector<double>& at);
 
 /// The modes to be expected at a posture.
 struct LearnedModes {

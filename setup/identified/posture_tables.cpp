@@ -128,12 +128,6 @@ std::filesystem::path table_of(const std::filesystem::path& pattern, const std::
   return path;
 }
 
-std::vector<std::string> names_of(const dynamics::DofTable& dofs) {
-  std::vector<std::string> names;
-  for (const dynamics::Dof& dof : dofs) names.push_back(dynamics::name(dof));
-  return names;
-}
-
 void read_tables(const TabledRobot& robot, PostureTables& read) {
   for (const std::string& name : read.names) {
     read.files.push_back(table_of(robot.table, name));
@@ -206,6 +200,16 @@ std::vector<posture::TappedPosture> tapped_at_tip(const TabledRobot& robot) {
                         read.labels[i],
                         {}});
   return postures;
+}
+
+dynamics::DofTable tip_dofs(const TabledRobot& robot) {
+  return robot::at_point(robot.tapped->tables.front(), robot.table_point).dofs;
+}
+
+std::vector<std::string> names_of(const dynamics::DofTable& dofs) {
+  std::vector<std::string> names;
+  for (const dynamics::Dof& dof : dofs) names.push_back(dynamics::name(dof));
+  return names;
 }
 
 std::vector<std::string> doubts_about(const TabledRobot& robot) {

@@ -30,6 +30,12 @@ struct ScaledPlaces {
 /// The postures of a robot whose postures were read, as a predictor takes them: scaled, with their modes at the tip.
 [[nodiscard]] std::vector<posture::TappedPosture> tapped_at_tip(const TabledRobot& robot);
 
+/// The DOFs of the tip in the tables of a robot whose postures were read, table axes.
+[[nodiscard]] dynamics::DofTable tip_dofs(const TabledRobot& robot);
+
+/// The names of DOFs, in order.
+[[nodiscard]] std::vector<std::string> names_of(const dynamics::DofTable& dofs);
+
 /// Sentences on what speaks against modes that are learned of these postures: a posture that is asked for beyond the
 /// hull of the tapped ones, modes that were seen at too few, labels that neighbours contradict. Empty of a robot
 /// without postures, or whose postures were not read.

@@ -9,9 +9,9 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "robot/modal_table.hpp"
+#include "setup/identified/identify.hpp"
+#include "setup/identified/learned_modes.hpp"
 #include "setup/identified/posture_tables.hpp"
-#include "setup/identified/table_modes.hpp"
 #include "setup/milling_process.hpp"
 #include "study/lobes/cut_structure.hpp"
 
@@ -22,40 +22,38 @@ namespace {
 constexpr double depth_tolerance = 1e-3;  // relative; bands are wider by far
 constexpr int most_chart_speeds = 60;
 
-const setup::TabledRobot& tabled_robot(const setup::Setup& source) {
-  const auto* robot = source.robot ? std::get_if<setup::TabledRobot>(&source.robot->model) : nullptr;
-  if (robot == nullptr || !robot->postures)
-    throw core::InputError("the case has no robot that was tapped at several postures; give robot.postures");
-  return *robot;
-}
-
 /// The robot of a set-up with its files read.
 setup::TabledRobot tapped_robot(const setup::Setup& source) {
-  setup::TabledRobot robot = tabled_robot(source);
+  const setup::TabledRobot* tabled = setup::tabled_robot(source.robot);
+  if (tabled == nullptr || !tabled->postures)
+    throw core::InputError("the case has no robot that was tapped at several postures; give robot.postures");
+  setup::TabledRobot robot = *tabled;
   if (!robot.tapped) robot.tapped = std::make_shared<const setup::PostureTables>(setup::read_posture_tables(robot));
   return robot;
 }
 
-dynamics::DofTable tip_dofs(const setup::TabledRobot& robot) {
-  return robot::at_point(robot.tapped->tables.front(), robot.table_point).dofs;
+/// The robot, and what is learned of it.
+struct LearnedRobot {
+  setup::TabledRobot robot;
+  setup::PostureLearning learning;
+  posture::Predictor predictor;
+};
+
+LearnedRobot learn(const setup::Setup& source, const setup::TabledRobot& robot) {
+  setup::PostureLearning learning = setup::posture_learning(robot, setup::asked_joints(source, robot));
+  posture::Predictor predictor(learning.postures, learning.options);
+  return {robot, std::move(learning), std::move(predictor)};
 }
 
-std::vector<std::string> names_of(const dynamics::DofTable& dofs) {
-  std::vector<std::string> names;
-  for (const dynamics::Dof& dof : dofs) names.push_back(dynamics::name(dof));
-  return names;
-}
-
-/// Rows as the columns of robot.over have them, scaled as the postures are.
-std::vector<posture::Place> scaled(setup::TabledRobot robot, const Eigen::MatrixXd& rows) {
+/// Rows as the columns of robot.over have them, as places that the predictor takes.
+std::vector<posture::Place> places_of(const LearnedRobot& learned, const Eigen::MatrixXd& rows) {
+  const setup::TabledRobot& robot = learned.robot;
   if (rows.cols() != robot.tapped->places.cols())
     throw core::InputError(fmt::format("places with {} numbers, must have one for each of the {} columns of robot.over",
                                        rows.cols(), robot.tapped->places.cols()));
   std::vector<posture::Place> places;
-  for (const auto& row : rows.rowwise()) {
-    robot.postures->at.assign(row.begin(), row.end());
-    places.push_back({setup::scaled_places(robot).at, {}, {}});
-  }
+  for (const auto& row : rows.rowwise())
+    places.push_back(setup::place_at(robot, learned.learning, {row.begin(), row.end()}));
   return places;
 }
 
@@ -75,11 +73,11 @@ std::vector<double> chart_speeds(const setup::Setup& source) {
 std::optional<posture::PostureCut> cut_of(const setup::Setup& source, const setup::TabledRobot& robot,
                                           std::vector<std::string>& notes) {
   if (!setup::carries_tool(source.robot) || !source.tool || !source.cutting) return std::nullopt;
-  if (setup::known_by_lines(*source.tool))
-    throw core::InputError("the tool is known by lines, must have poles beside the robot's; give tool.fit = true");
+  if (setup::known_by_lines(*source.tool) || setup::awaits_fit(source))
+    throw core::InputError("the tool is known by lines, must have poles beside the robot's; give tool.modes");
   posture::PostureCut cut;
   cut.process = setup::milling_process(source);
-  const dynamics::DofTable dofs = tip_dofs(robot);
+  const dynamics::DofTable dofs = setup::tip_dofs(robot);
   cut.responses.resize(3, std::ssize(dofs));
   for (std::size_t i = 0; i < dofs.size(); ++i) {
     const bool moves = dofs[i].kind == dynamics::DofKind::translation;
@@ -87,6 +85,7 @@ std::optional<posture::PostureCut> cut_of(const setup::Setup& source, const setu
         moves ? Eigen::Vector3d(robot.base.linear() * dofs[i].direction) : Eigen::Vector3d::Zero();
   }
   cut.references = cut.responses;
+  cut.cross_terms = robot.cross_terms;
   cut.stability.depth_limit_m = source.lobes ? source.lobes->depth_limit : source.tool->length;
   cut.stability.error_tolerance = depth_tolerance;
   cut.beside = cut_poles(source, nullptr);
@@ -107,15 +106,22 @@ double chosen_speed(const setup::Setup& source, const PostureQuestions& question
   return cut.spindle_speeds_rpm[static_cast<std::size_t>(best)];
 }
 
-void tell_labels(const posture::Predictor& predictor, const PostureStudy& study, std::vector<std::string>& notes) {
-  notes.push_back(fmt::format("{} modes are learned from {} postures", predictor.labels().size(), study.names.size()));
+/// What is learned, and what of it the answers do not know.
+void tell_learning(const LearnedRobot& learned, const PostureQuestions& questions, PostureStudy& study) {
+  study.notes.push_back(fmt::format("{} modes are learned from {} postures{}", learned.predictor.labels().size(),
+                                    study.names.size(), learned.learning.note));
+  if (!learned.learning.options.mean) return;
+  if (questions.errors)
+    study.notes.emplace_back("the arm was calibrated on all postures, those that are held out among them");
+  if (questions.sharing)
+    study.notes.emplace_back("numbers alone and together are compared by themselves, without the arm as their mean");
 }
 
-void answer_map(const setup::TabledRobot& robot, const posture::Predictor& predictor, const PostureQuestions& questions,
-                std::optional<posture::PostureCut> cut, PostureStudy& study) {
+void answer_map(const LearnedRobot& learned, const PostureQuestions& questions, std::optional<posture::PostureCut> cut,
+                PostureStudy& study) {
   if (cut && questions.best_speed && !study.chart_rpm.empty()) cut->spindle_speeds_rpm = study.chart_rpm;
   study.mapped_at = posture::grid_within_hull(study.places, questions.grid);
-  study.map = posture::workspace_map(predictor, scaled(robot, study.mapped_at), cut);
+  study.map = posture::workspace_map(learned.predictor, places_of(learned, study.mapped_at), cut);
 }
 
 void answer_envelope(const posture::PosturePrediction& at, const PostureQuestions& questions, posture::PostureCut cut,
@@ -130,13 +136,13 @@ void answer_envelope(const posture::PosturePrediction& at, const PostureQuestion
       posture::band_envelope(modes, cut, questions.split_hz.value_or(posture::widest_gap_hz(modes)), at.rest);
 }
 
-void answer_next(const setup::TabledRobot& robot, const posture::Predictor& predictor,
-                 const PostureQuestions& questions, const std::optional<posture::PostureCut>& cut,
-                 PostureStudy& study) {
-  study.path = questions.path.size() > 0 ? questions.path : asked_place(robot);
+void answer_next(const LearnedRobot& learned, const PostureQuestions& questions,
+                 const std::optional<posture::PostureCut>& cut, PostureStudy& study) {
+  study.path = questions.path.size() > 0 ? questions.path : asked_place(learned.robot);
   study.candidates =
       questions.candidates.size() > 0 ? questions.candidates : posture::grid_within_hull(study.places, questions.grid);
-  study.next = posture::next_posture(predictor, scaled(robot, study.path), scaled(robot, study.candidates), cut);
+  study.next = posture::next_posture(learned.predictor, places_of(learned, study.path),
+                                     places_of(learned, study.candidates), cut);
 }
 
 }  // namespace
@@ -159,15 +165,16 @@ PostureStudy study_postures(const setup::Setup& source, const PostureQuestions& 
                             const StageListener& listener) {
   Stages stages(listener);
   const setup::TabledRobot robot = tapped_robot(source);
-  PostureStudy study{robot.tapped->names, robot.postures->over, names_of(tip_dofs(robot)), robot.tapped->places,
-                     setup::tapped_at_tip(robot)};
+  PostureStudy study{
+      robot.tapped->names, robot.postures->over, setup::names_of(setup::tip_dofs(robot)), robot.tapped->places, {}};
   study.doubts = setup::doubts_about(robot);
   study.chart_rpm = chart_speeds(source);
   std::optional<posture::PostureCut> cut = cut_of(source, robot, study.notes);
   stages.begin("learning");
-  const posture::Predictor predictor(study.postures, {});
-  const posture::PosturePrediction at = predictor.predict(scaled(robot, asked_place(robot)).front());
-  tell_labels(predictor, study, study.notes);
+  const LearnedRobot learned = learn(source, robot);
+  const posture::PosturePrediction at = learned.predictor.predict(learned.learning.asked);
+  study.postures = learned.learning.postures;
+  tell_learning(learned, questions, study);
   if (cut) {
     study.spindle_speed_rpm = chosen_speed(source, questions, *cut, at);
     cut->spindle_speeds_rpm = {*study.spindle_speed_rpm};
@@ -176,7 +183,7 @@ PostureStudy study_postures(const setup::Setup& source, const PostureQuestions& 
       posture::folds_in_turn(study.names.size(), std::min<int>(questions.folds, static_cast<int>(study.names.size())));
   if (questions.errors) {
     stages.begin("errors");
-    study.held_out = posture::held_out(study.postures, {}, fold, cut);
+    study.held_out = posture::held_out(study.postures, learned.learning.options, fold, cut);
   }
   if (questions.sharing) {
     stages.begin("sharing");
@@ -184,12 +191,12 @@ PostureStudy study_postures(const setup::Setup& source, const PostureQuestions& 
   }
   if (questions.map) {
     stages.begin("map");
-    answer_map(robot, predictor, questions, cut, study);
+    answer_map(learned, questions, cut, study);
   }
   if (questions.envelope && cut) answer_envelope(at, questions, *cut, study);
   if (questions.next) {
     stages.begin("next posture");
-    answer_next(robot, predictor, questions, cut, study);
+    answer_next(learned, questions, cut, study);
   }
   stages.end();
   return study;

@@ -61,11 +61,11 @@ struct PostureStudy {
   std::vector<std::string> notes{};
 };
 
-/// Learns the modes of `source.robot` over its postures (posture::Predictor), and answers. Depths are those of a robot
-/// that carries the tool, with the tool's modes beside it and a rigid part. Throws InputError for a set-up whose robot
-/// has no postures, for a measured tool without poles, for places with another number of columns, and as
-/// setup::read_posture_tables() and the functions of posture/. Cost: a Predictor, and one a fold; of the map, draws ×
-/// places limiting depths.
+/// Learns the modes of `source.robot` over its postures (setup::posture_learning(), as `run` does), and answers. Depths
+/// are those of a robot that carries the tool, with the tool's modes beside it and a rigid part. Throws InputError for
+/// a set-up whose robot has no postures, for a measured tool, for places with another number of columns, and as
+/// setup::read_posture_tables(), setup::posture_learning(), setup::place_at() and the functions of posture/. Cost: a
+/// Predictor, and one a fold; of the map, draws × places limiting depths.
 [[nodiscard]] PostureStudy study_postures(const setup::Setup& source, const PostureQuestions& questions,
                                           const StageListener& listener = {});
 

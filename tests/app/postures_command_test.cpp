@@ -75,9 +75,10 @@ most_added = 0
   void write(const std::string& name, const std::string& text) const {
     core::write_file_atomically(temporary.path / name, text);
   }
-  [[nodiscard]] Outcome command(std::vector<std::string> more) const {
-    std::vector<std::string> words{"thinwall", "postures", (temporary.path / "case.toml").string(),
-                                   "-q",       "--out",    (temporary.path / "out").string()};
+  [[nodiscard]] Outcome command(const std::vector<std::string>& more) const { return command_of("postures", more); }
+  [[nodiscard]] Outcome command_of(const std::string& name, const std::vector<std::string>& more) const {
+    std::vector<std::string> words{"thinwall", name,    (temporary.path / "case.toml").string(),
+                                   "-q",       "--out", (temporary.path / "out").string()};
     words.insert(words.end(), more.begin(), more.end());
     std::vector<const char*> argv;
     for (const auto& word : words) argv.push_back(word.c_str());
@@ -124,7 +125,7 @@ TEST_F(Postures, AreFollowedAndToldByOthers) {
   EXPECT_NEAR(left_out[60], measured[60], 0.01);
 }
 
-/// The map has the lowest mode in closed form, and its depths those of the run at the same posture.
+/// The map has the lowest mode in closed form; depths lie within their bands, and the envelope below the low modes.
 TEST_F(Postures, AreMapped) {
   const Outcome done = command({"--parts", "map,envelope", "--grid", "9"});
   ASSERT_EQ(done.code, 0) << done.err;
@@ -143,6 +144,31 @@ TEST_F(Postures, AreMapped) {
   EXPECT_EQ(rpm[2], 700.0);
   for (std::size_t i = 0; i < rpm.size(); ++i) EXPECT_LE(lower[i], low_modes[i]);
   EXPECT_FALSE(std::filesystem::exists(temporary.path / "out" / "postures" / "errors.csv"));
+}
+
+/// The map's depth at a place is that of a run with robot.at there: of the robot alone, with a tool that yields, which
+/// takes depth, and without cross terms, which change it.
+TEST_F(Postures, HaveTheDepthsOfARunThere) {
+  const std::string plain = core::read_file(temporary.path / "case.toml");
+  const std::string mode =
+      "[[tool.modes]]\nfrequency = \"110 Hz\"\ndamping_ratio = 0.03\nstiffness = \"1 N/um\"\ndirection = \"y\"\n";
+  std::string direct = plain;
+  direct.replace(direct.find("carries"), 0, "cross_terms = false\n");
+  std::vector<double> depths;
+  for (const std::string& text : {plain, plain + mode, direct}) {
+    write("case.toml", text);
+    const Outcome run = command_of("run", {"--set", "robot.at=[1.5]"}),
+                  mapped = command({"--parts", "map", "--grid", "9"});
+    ASSERT_EQ(mapped.code, 0) << mapped.err;
+    ASSERT_EQ(run.code, 0) << run.err;
+    ASSERT_EQ(numbers("map.csv", "u").at(3), 1.5);
+    depths.push_back(numbers("map.csv", "depth_m").at(3));
+    const nlohmann::json summary = nlohmann::json::parse(core::read_file(temporary.path / "out" / "summary.json"));
+    const double expected = summary["lobes"][0]["at_case_speed"]["limiting_depth_m"];
+    EXPECT_NEAR(depths.back(), expected, 1e-4 * expected) << text;
+  }
+  EXPECT_LT(depths[1], 0.97 * depths[0]);
+  EXPECT_GT(std::abs(depths[2] - depths[0]), 0.02 * depths[0]);
 }
 
 /// Of candidates within the path's range and far from it, on a robot that was tapped everywhere, those are listed by

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "core/error.hpp"
+#include "core/interrupt.hpp"
 #include "posture/band_envelope.hpp"
 #include "posture/held_out.hpp"
 #include "posture/mode_targets.hpp"
@@ -113,12 +114,12 @@ TEST(HeldOut, CoversWhatTestsGive) {
   const HeldOut found = held_out(postures, quick(), folds_in_turn(postures.size(), 5));
   for (const Eigen::Index number : {0, 1}) {
     EXPECT_GE(covered(found.modes, number), 0.88) << number;
-    EXPECT_LE(covered(found.modes, number), 1.00) << number;
+    std::vector<double> deviations;
+    for (const HeldOutMode& mode : found.modes) deviations.push_back(mode.deviation(number));
+    std::ranges::sort(deviations);
+    const double noise = number == 0 ? 0.01 : 0.05;
+    EXPECT_NEAR(deviations[deviations.size() / 2], noise, 0.4 * noise) << number;  // mostly the noise
   }
-  std::vector<double> deviations;
-  for (const HeldOutMode& mode : found.modes) deviations.push_back(mode.deviation(1));
-  std::ranges::sort(deviations);
-  EXPECT_NEAR(deviations[deviations.size() / 2], 0.05, 0.02);  // mostly the noise
   EXPECT_TRUE(std::isnan(covered(std::vector<HeldOutDepths>{})));
 }
 
@@ -156,6 +157,28 @@ TEST(AloneAndTogether, DoesNotGainWhereNothingIsShared) {
   for (const SharedTasks& group : alone_and_together(postures, folds_in_turn(postures.size(), 5))) {
     EXPECT_NE(group.sharing(), Sharing::gains);
   }
+}
+
+/// A mode that eight postures have seen, seven of which are in one fold: beside that fold there is one alone, from
+/// which nothing can be learned.
+TEST(AloneAndTogether, LeavesOutAModeThatOneFoldHasAlmostAlone) {
+  auto postures = postures_with({0.0, 1e-3, 1e-2}, 20);
+  std::vector<int> fold(postures.size(), 0);
+  for (std::size_t i = 10; i < postures.size(); ++i) fold[i] = 1;
+  for (std::size_t i = 0; i < postures.size(); ++i) {
+    if (i < 7 || i == 10) continue;
+    postures[i].modes.pop_back();
+    postures[i].label.pop_back();
+  }
+  const auto tasks = alone_and_together(postures, fold);
+  EXPECT_EQ(tasks.size(), 3U);
+  for (const SharedTasks& group : tasks) EXPECT_EQ(group.label, 0);
+}
+
+TEST(GridWithinHull, EndsWhenItIsInterrupted) {
+  core::request_interrupt();
+  EXPECT_THROW((void)grid_within_hull(Eigen::Vector2d(0.0, 1.0), 5), core::Interrupted);
+  core::clear_interrupt();
 }
 
 TEST(GridWithinHull, HasThePlacesOfATriangle) {
@@ -210,6 +233,44 @@ TEST(BandEnvelope, IsThatOfTheModesThatYield) {
   }
   EXPECT_EQ(band_envelope(modes, cut, 1e4).high(0), std::numeric_limits<double>::infinity());
   EXPECT_THROW((void)widest_gap_hz(modes_at({{50.0, 0.02}})), core::InputError);
+}
+
+/// A tool beside the robot counts to the high modes: the low ones are as without it, and without a high mode the tool
+/// alone limits the depth.
+TEST(BandEnvelope, CountsTheToolToTheHighModes) {
+  const auto low = modes_at({{50.0, 0.02}, {64.0, 0.01}}), high = modes_at({{150.0, 0.05}}),
+             tool = modes_at({{180.0, 0.1}});
+  PostureCut cut = slot_along_y({1700.0});
+  const Eigen::VectorXd robot_alone = limiting_depths(low, cut), tool_alone = limiting_depths(tool, cut);
+  ASSERT_LT(tool_alone.maxCoeff(), cut.stability.depth_limit_m);
+  cut.beside = structure_of(tool, cut);
+  const BandEnvelope no_high = band_envelope(low, cut, 100.0), no_low = band_envelope(high, cut, 100.0);
+  EXPECT_EQ(no_high.low, robot_alone);
+  EXPECT_LT((no_high.high - tool_alone).cwiseAbs().maxCoeff(), 1e-4 * tool_alone.minCoeff());
+  EXPECT_EQ(no_high.together, limiting_depths(low, cut));
+  EXPECT_EQ(no_low.low.minCoeff(), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(no_low.high, limiting_depths(high, cut));
+}
+
+/// Cross terms are left out of what the cut feels; the direct receptances stay, and so do those of the rest.
+TEST(StructureOf, LeavesOutCrossTerms) {
+  identification::FittedMode mode;
+  mode.frequency_hz = 40.0;
+  mode.damping_ratio = 0.03;
+  mode.right = Eigen::Vector2cd(std::complex<double>(0.02, 0.001), std::complex<double>(0.01, -0.002));
+  mode.left = Eigen::Vector2cd(std::complex<double>(0.0, -1.0), std::complex<double>(0.2, -0.7));
+  mode.residue = mode.right * mode.left.transpose();
+  Eigen::Matrix2d rest;
+  rest << 2e-8, 1e-8, 3e-8, 4e-8;
+  PostureCut cut;
+  cut.responses = Eigen::Matrix3d::Identity().leftCols(2);
+  cut.references = cut.responses;
+  const double omega = 2.0 * std::numbers::pi * 39.0;
+  const Eigen::Matrix3cd all = milling::receptance(structure_of({mode}, cut, rest), omega);
+  cut.cross_terms = false;
+  const Eigen::Matrix3cd direct = milling::receptance(structure_of({mode}, cut, rest), omega);
+  EXPECT_GT(std::abs(all(0, 1)), 0.1 * std::abs(all(0, 0)));
+  EXPECT_LT((direct - Eigen::Matrix3cd(all.diagonal().asDiagonal())).norm(), 1e-12 * all.norm());
 }
 
 }  // namespace
