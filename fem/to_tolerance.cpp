@@ -130,17 +130,23 @@ double error_ratio(int order, double exponent) {
   return std::max(0.5, std::pow((order - 0.5) / (order + 0.5), 4.0 * exponent));
 }
 
-/// The ratio r of the error of the last order to that of the one below it. Beside a re-entrant edge the ratio q of the
-/// last two changes on one mesh is less than the law of error_ratio() where the smooth share of the error still leads;
-/// r = q then, but not below the ratio that the other edges have.
-double measured_ratio(const std::vector<RefinementStep>& steps, std::optional<double> RefinementStep::*change,
-                      const Exponent& exponent) {
+/// The error of the last order over the last change: r / (1 − r) by the law of error_ratio(). Beside a re-entrant edge
+/// the last two changes on one mesh may have a ratio q below r. Then the change has a smooth share, too, which falls by
+/// ρ = 1/10 an order where the singular one falls by r (docs/theory/elements.md): of the last change the share s = r (q
+/// − ρ) / (q (r − ρ)) is singular, and the error is s r / (1 − r) + (1 − s) ρ / (1 − ρ), at least as the other edges
+/// have it.
+double error_over_change(const std::vector<RefinementStep>& steps, std::optional<double> RefinementStep::*change,
+                         const Exponent& exponent) {
+  constexpr double smooth = 0.1;
   const RefinementStep& last = steps.back();
-  const double law = error_ratio(last.order, exponent.least);
-  if (steps.size() < 2 || steps[steps.size() - 2].level != last.level) return law;
-  const std::optional<double> before = steps[steps.size() - 2].*change;
-  if (!before || !(*before > 0.0)) return law;
-  return std::clamp((last.*change).value_or(0.0) / *before, error_ratio(last.order, exponent.otherwise), law);
+  const double r = error_ratio(last.order, exponent.least), others = error_ratio(last.order, exponent.otherwise);
+  const double singular = r / (1.0 - r);
+  const bool one_mesh = steps.size() > 1 && steps[steps.size() - 2].level == last.level;
+  const double before = one_mesh ? (steps[steps.size() - 2].*change).value_or(0.0) : 0.0;
+  const double q = before > 0.0 ? (last.*change).value_or(0.0) / before : r;
+  const double share = q > smooth ? std::min(1.0, r * (q - smooth) / (q * (r - smooth))) : 0.0;
+  const double error = share * singular + (1.0 - share) * smooth / (1.0 - smooth);
+  return std::max(error, std::min(singular, others / (1.0 - others)));
 }
 
 /// The estimated errors of a solution. That of an entry by its own magnitude is told, and held to no tolerance: a stiff
@@ -152,15 +158,16 @@ struct Errors {
   [[nodiscard]] double worst() const { return std::max(frequency, receptance); }
 };
 
-/// The errors of the last two solutions on one mesh: of the lower d / (1 − r), with d the last changes, and of the
-/// higher r d / (1 − r).
+/// The errors of the last two solutions on one mesh: of the higher e d, with d the last changes and e the
+/// error_over_change(), and of the lower (1 + e) d.
 std::pair<Errors, Errors> errors_of_last_two(const std::vector<RefinementStep>& steps, const Exponents& exponent) {
   const RefinementStep& last = steps.back();
-  const double f = measured_ratio(steps, &RefinementStep::frequency_change, exponent.frequency);
-  const double r = measured_ratio(steps, &RefinementStep::receptance_change, exponent.receptance);
-  const Errors lower{last.frequency_change.value_or(0.0) / (1.0 - f), last.receptance_change.value_or(0.0) / (1.0 - r),
-                     last.entry_change.value_or(0.0) / (1.0 - r), last.worst_receptance};
-  return {lower, {f * lower.frequency, r * lower.receptance, r * lower.entry, last.worst_receptance}};
+  const double f = error_over_change(steps, &RefinementStep::frequency_change, exponent.frequency);
+  const double r = error_over_change(steps, &RefinementStep::receptance_change, exponent.receptance);
+  const double frequency = last.frequency_change.value_or(0.0), receptance = last.receptance_change.value_or(0.0);
+  const double entry = last.entry_change.value_or(0.0);
+  return {{(1.0 + f) * frequency, (1.0 + r) * receptance, (1.0 + r) * entry, last.worst_receptance},
+          {f * frequency, r * receptance, r * entry, last.worst_receptance}};
 }
 
 /// The factor by which the levels left reduce an error at best, q²ⁿ with q ≤ 1 the ratio of the last change to that of
