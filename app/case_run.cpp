@@ -71,11 +71,14 @@ void write_report(const std::filesystem::path& results, const report::RunAtHand&
 }
 
 /// Says the whole time of a run that takes long. A run that finds charts or simulations of an earlier one may take
-/// less, and a point of a sweep is one of many.
-void tell_of_first_run(const cases::Case& source, const RunOptions& options) {
+/// less, and a point of a sweep is one of many. Returns as tell_of_long_run().
+std::shared_ptr<const fem::FirstMesh> tell_of_first_run(const cases::Case& source, const RunOptions& options,
+                                                        const study::StageListener& on_stage) {
   const std::filesystem::path cache = options.out / "cache";
   const bool known = std::filesystem::exists(cache / "lobes.bin") || std::filesystem::exists(cache / "simulation.bin");
-  if ((options.fresh || !known) && options.parts.empty()) tell_of_long_run(source);
+  if ((!options.fresh && known) || !options.parts.empty()) return {};
+  on_stage("forecast");
+  return tell_of_long_run(source);
 }
 
 report::Summary summary_of(const cases::Case& source, const study::Results& results) {
@@ -99,13 +102,13 @@ std::vector<cases::Expectation> expectations_of(const cases::Case& source) {
 
 RunResult run_case(const cases::Case& source, const RunOptions& options) {
   const std::string started = now_utc();
-  tell_of_first_run(source, options);
-  const auto expectations = expectations_of(source);
   messages_to_log();
-  for (const std::string& doubt : cases::doubts_about(source)) core::warn(doubt);
+  const auto expectations = expectations_of(source);
   StageDisplay display(options.progress      ? ProgressDisplay::line
                        : options.stage_lines ? ProgressDisplay::lines
                                              : ProgressDisplay::none);
+  const auto first_mesh = tell_of_first_run(source, options, display.listener());
+  for (const std::string& doubt : cases::doubts_about(source)) core::warn(doubt);
   study::Kept kept{shared_checkpoint("part", source.part ? study::part_key(source) : "", options),
                    {options.out / "cache" / "structure.bin", study::structure_key(source), options.fresh},
                    {options.out / "cache" / "lobes.bin", study::charts_key(source), options.fresh},
@@ -114,7 +117,8 @@ RunResult run_case(const cases::Case& source, const RunOptions& options) {
                                      : study::Checkpoint(),
                    shared_checkpoint("tool", study::tool_key(source), options),
                    shared_checkpoint("robot", study::robot_key(source), options)};
-  study::Results results = study::run(source, cases::variation_of(source), kept, {options.points, display.listener()});
+  study::Results results =
+      study::run(source, cases::variation_of(source), kept, {options.points, display.listener(), first_mesh});
   study::Stages stages(display.listener());
   stages.begin("output");
   const auto staging = core::partial_path(options.out / "results");

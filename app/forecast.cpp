@@ -10,15 +10,16 @@
 #include "case/checks/mesh_size.hpp"
 #include "core/error.hpp"
 #include "study/identification_forecast.hpp"
+#include "study/part/discretisation.hpp"
 #include "study/part/part_forecast.hpp"
 
 namespace thinwall::app {
 
 namespace {
 
-setup::PartSize size_of(const cases::Case& source) {
-  study::require_points_hold(source);
-  const auto first = study::forecast(study::part_input(source));
+setup::PartSize size_of(const cases::Case& source, const study::PartInput& part,
+                        const std::shared_ptr<const fem::FirstMesh>& mesh) {
+  const auto first = study::forecast(part, mesh);
   return first ? *first : cases::estimate_size(source);
 }
 
@@ -27,7 +28,12 @@ setup::PartSize size_of(const cases::Case& source) {
 Forecast forecast(const cases::Case& source) {
   Forecast result;
   result.identification_s = study::forecast_identification(source);
-  if (source.part) result.part = size_of(source);
+  if (source.part) {
+    study::require_points_hold(source);
+    const study::PartInput part = study::part_input(source);
+    result.first_mesh = study::first_mesh(part);
+    result.part = size_of(source, part, result.first_mesh);
+  }
   result.lobes = study::forecast_lobes(source);
   result.simulation = study::forecast_simulation(source);
   return result;
@@ -53,14 +59,16 @@ std::string text(const Forecast& forecast) {
   return told > 1 ? line + list : line;
 }
 
-void tell_of_long_run(const cases::Case& source) {
+std::shared_ptr<const fem::FirstMesh> tell_of_long_run(const cases::Case& source) {
   constexpr double long_s = 10.0;
   try {
     const Forecast time = forecast(source);
     if (time.at_least() || time.whole_s() >= long_s) spdlog::info("{}", text(time));
+    return time.first_mesh;
   } catch (const core::Interrupted&) {
     throw;
   } catch (const core::Error&) {
+    return {};
   }
 }
 

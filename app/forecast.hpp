@@ -1,10 +1,12 @@
 #pragma once
 // The time that a run will take, before it begins.
 
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "case/machining_case.hpp"
+#include "fem/closed_part.hpp"
 #include "setup/part_size.hpp"
 #include "study/lobes/lobes_forecast.hpp"
 #include "study/simulation/simulation_forecast.hpp"
@@ -17,6 +19,7 @@ struct Forecast {
   std::optional<setup::PartSize> part;
   std::optional<study::LobesForecast> lobes;
   std::optional<study::SimulationForecast> simulation;
+  std::shared_ptr<const fem::FirstMesh> first_mesh{};  ///< of the part, if the forecast made one that a run can take
 
   [[nodiscard]] double part_s() const { return part ? part->seconds : 0.0; }
   [[nodiscard]] double lobes_s() const { return lobes ? lobes->seconds : 0.0; }
@@ -39,7 +42,8 @@ struct Forecast {
 [[nodiscard]] std::string text(const Forecast& forecast);
 
 /// Logs that line for a case that takes ten seconds or longer, or whose rows take too long to be timed. What cannot be
-/// foreseen is an error of the run, which tells it where it is met. Throws Interrupted. Cost: as forecast().
-void tell_of_long_run(const cases::Case& source);
+/// foreseen is an error of the run, which tells it where it is met. Returns the first mesh of the part for the run, if
+/// there is one. Throws Interrupted. Cost: as forecast().
+std::shared_ptr<const fem::FirstMesh> tell_of_long_run(const cases::Case& source);
 
 }  // namespace thinwall::app

@@ -88,8 +88,8 @@ std::string simulate_case(cases::Case source, const std::filesystem::path& out, 
   source.path.reset();
   const report::ResultFolder folder(out.empty() ? report::default_result_folder(source.name) : out);
   log_to_file(folder.path() / "run.log");  // marks the folder as ours
-  tell_of_long_run(source);
   messages_to_log();
+  const auto first_mesh = tell_of_long_run(source);
   const auto cache = folder.path() / "cache";
   const auto kept_under = [&cache](const std::string& stage, const std::string& key) {
     return key.empty() ? study::Checkpoint() : study::Checkpoint(cache / (stage + ".bin"), key, false);
@@ -101,7 +101,8 @@ std::string simulate_case(cases::Case source, const std::filesystem::path& out, 
                    kept_under("tool", study::tool_key(source)),
                    kept_under("robot", study::robot_key(source))};
   StageDisplay stages(display);
-  const study::Results results = study::run(source, cases::variation_of(source), kept, {.on_stage = stages.listener()});
+  const study::Results results =
+      study::run(source, cases::variation_of(source), kept, {.on_stage = stages.listener(), .first_mesh = first_mesh});
   const auto staging = core::partial_path(folder.path() / "simulated");
   report::write_simulation(staging, results);
   report::publish_folder(staging / "simulation", folder.path() / "simulated");

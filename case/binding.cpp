@@ -135,6 +135,7 @@ setup::Part bind_part(const Table& table, const std::filesystem::path& folder) {
     return std::isfinite(value) ? std::optional(value) : std::nullopt;
   };
   const auto order = number("order");
+  const auto budget = mesh.optional("time_budget");
   part.mesh = {number("element_size"),
                mesh.optional("tolerance").value_or(setup::usual_tolerance(part)),
                order ? std::optional(static_cast<int>(*order)) : std::nullopt,
@@ -142,6 +143,7 @@ setup::Part bind_part(const Table& table, const std::filesystem::path& folder) {
                mesh.optional("grading"),
                mesh.optional("point_element_size"),
                mesh.number("time_limit"),
+               budget ? budget : setup::usual_time_budget(part),
                mesh.number("memory_limit")};
   for (const auto& support : table.tables("supports")) {
     setup::Support bound{support.text("on"), {}};

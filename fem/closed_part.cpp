@@ -70,6 +70,10 @@ SolidPart solid_part(const mesh::TriangleSurface& surface, const Material& mater
   part.attachments = options.attachments;
   part.materials = options.materials;
   part.mesh = [&surface, &options, &fits](int level) {
+    if (level == 0 && options.first) {
+      fits.push_back(options.first->fit);
+      return options.first->mesh;
+    }
     mesh::SurfaceMeshed result = meshed(surface, options, level);
     fits.push_back({level, std::move(result.mesher), result.volume_error_relative, result.surface_distance_m,
                     std::move(result.failures)});
@@ -111,17 +115,19 @@ ToleranceOptions steps_of(const mesh::TriangleSurface& surface, const ClosedPart
   steps.reentrant_edges = has_reentrant_edge(surface);
   steps.memory_limit_bytes = options.memory_limit_bytes;
   steps.largest_dofs = options.largest_dofs;
+  steps.time_budget_s = options.time_budget_s;
+  steps.solved = options.solved;
   return steps;
 }
 
 }  // namespace
 
-mesh::TetMesh coarsest_mesh(const mesh::TriangleSurface& surface, const ClosedPartOptions& options) {
+FirstMesh first_mesh(const mesh::TriangleSurface& surface, const ClosedPartOptions& options) {
   validate(options);
   std::vector<SurfaceFit> fits;
   mesh::TetMesh mesh = solid_part(surface, {}, options, fits).mesh(0);
   require_fit(mesh, steps_of(surface, options));
-  return mesh;
+  return {std::move(mesh), std::move(fits.front())};
 }
 
 ClosedPart refine_closed_part(const mesh::TriangleSurface& surface, const Material& material,
@@ -131,7 +137,7 @@ ClosedPart refine_closed_part(const mesh::TriangleSurface& surface, const Materi
   std::vector<SurfaceFit> fits;
   Refined refined = refine_to_tolerance(solid_part(surface, material, options, fits), steps);
   ClosedPart result{std::move(refined), std::move(fits), 0.0, false};
-  const int level = result.refined.estimate.steps.back().level;
+  const int level = result.refined.level;
   const auto solved =
       std::find_if(result.fits.begin(), result.fits.end(), [&](const SurfaceFit& fit) { return fit.level == level; });
   result.frequency_error = result.refined.estimate.frequency + std::abs(solved->volume_error_relative);

@@ -2,6 +2,8 @@
 // The modes, to a tolerance, of a part that is given as a closed surface: element sizes follow from its wall thickness,
 // order and level of refinement are raised as needed.
 
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,21 @@ namespace thinwall::fem {
 /// The share of the tolerance on frequencies that is reserved for the difference between the volumes of the mesh and of
 /// the surface.
 inline constexpr double share_of_surface = 0.2;
+
+/// The fit of the elements to the surface at one level.
+struct SurfaceFit {
+  int level = 0;
+  std::string mesher;                  ///< "TetGen" or "CGAL"
+  double volume_error_relative = 0.0;  ///< volume of the elements relative to that of the surface, less 1
+  double surface_distance_m = 0.0;     ///< distance between both, two-sided, at sampled points
+  std::vector<std::string> failures;   ///< a message for each attempt that failed before
+};
+
+/// The first mesh of a part.
+struct FirstMesh {
+  mesh::TetMesh mesh;
+  SurfaceFit fit;
+};
 
 /// Options of refine_closed_part().
 struct ClosedPartOptions {
@@ -31,29 +48,24 @@ struct ClosedPartOptions {
   int last_order = 6;                                          ///< last order of a level; above first_order, to 6
   int levels = 1;                      ///< number of levels, 1 to 4; each has five times as many elements as the last
   std::int64_t largest_dofs = 400000;  ///< no model with more is solved; 0: no bound
-  double memory_limit_bytes = 0.0;     ///< limit for a factor; 0: none
+  double memory_limit_bytes = 0.0;     ///< limit for a factor; 0: the memory that is left
+  double time_budget_s = 0.0;          ///< as in ToleranceOptions
+  std::function<void(const RefinementStep&)> solved{};  ///< as in ToleranceOptions
+  /// What first_mesh() has made of this surface by these options, which is not made again then; or empty.
+  std::shared_ptr<const FirstMesh> first{};
   /// Limits of each attempt of a mesher. The time is short because TetGen either ends within seconds or not at all.
   mesh::ProcessLimits limits{.time_s = 20.0, .memory_bytes = 4e9};
-};
-
-/// The fit of the elements to the surface at one level.
-struct SurfaceFit {
-  int level = 0;
-  std::string mesher;                  ///< "TetGen" or "CGAL"
-  double volume_error_relative = 0.0;  ///< volume of the elements relative to that of the surface, less 1
-  double surface_distance_m = 0.0;     ///< distance between both, two-sided, at sampled points
-  std::vector<std::string> failures;   ///< a message for each attempt that failed before
 };
 
 /// The solution, and its estimated error.
 struct [[nodiscard]] ClosedPart {
   Refined refined;
-  std::vector<SurfaceFit> fits;  ///< one for each level meshed; those held back by largest_dofs were not solved
+  std::vector<SurfaceFit> fits;  ///< one for each level meshed; not all need have been solved
   /// The estimated relative error of frequencies, from the elements (refined.estimate) and the surface: a wall whose
   /// volume is too small by a share bends at frequencies lower by the same share.
   double frequency_error = 0.0;
   /// True if frequency_error and the estimated error of receptances are within the tolerance. If not, refined.estimate
-  /// says whether largest_dofs prevented it.
+  /// says what prevented it, if it is no lack of levels.
   bool met = false;
 };
 
@@ -69,12 +81,12 @@ struct [[nodiscard]] ClosedPart {
 [[nodiscard]] bool has_reentrant_edge(const mesh::TriangleSurface& surface);
 
 /// The first mesh of refine_closed_part(), which solves nothing. Throws what that throws for options, surface and mesh.
-[[nodiscard]] mesh::TetMesh coarsest_mesh(const mesh::TriangleSurface& surface, const ClosedPartOptions& options);
+[[nodiscard]] FirstMesh first_mesh(const mesh::TriangleSurface& surface, const ClosedPartOptions& options);
 
-/// Meshes, solves and refines a part (refine_to_tolerance()) until the tolerance is met, or levels or degrees of
-/// freedom are exhausted. Throws InputError for options out of range, a surface that is not closed
-/// (mesh::require_closed; repair it with mesh::repaired_surface) or a part whose coarsest mesh exceeds largest_dofs;
-/// NumericalError if no mesher can fill the surface; Interrupted.
+/// Meshes, solves and refines a part (refine_to_tolerance()) until the tolerance is met, or levels, degrees of freedom,
+/// memory or time are exhausted; the best solution is the result. Throws InputError for options out of range, a surface
+/// that is not closed (mesh::require_closed; repair it with mesh::repaired_surface) or a part whose coarsest mesh
+/// exceeds largest_dofs; NumericalError if no mesher can fill the surface; Interrupted.
 ClosedPart refine_closed_part(const mesh::TriangleSurface& surface, const Material& material,
                               const ClosedPartOptions& options = {});
 

@@ -1,28 +1,28 @@
 #include "fem/to_tolerance.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <new>
 #include <string>
+#include <utility>
 
 #include "core/error.hpp"
-#include "dynamics/dof.hpp"
+#include "core/interrupt.hpp"
+#include "core/memory.hpp"
+#include "core/time_limit.hpp"
+#include "core/units.hpp"
 #include "fem/determined_motions.hpp"
 #include "fem/edge_exponent.hpp"
 #include "fem/interpolation.hpp"
+#include "fem/receptance_change.hpp"
 
 namespace thinwall::fem {
 
 namespace {
 
-/// The data of the receptances between the points; empty without points.
-struct Responses {
-  Eigen::ArrayXd lambda;        // rad²/s²
-  double sigma = 0.0;           // of the factor
-  Eigen::MatrixXd amplitudes;   // Wᵀ Φ
-  Eigen::MatrixXd flexibility;  // Wᵀ (K − σM)⁻¹ W
-};
+constexpr const char* too_large = "the next model would be too large";
 
 /// One solution, with the quantities that are compared between orders.
 struct Solution {
@@ -31,25 +31,6 @@ struct Solution {
   Modes modes;
   Responses responses;
 };
-
-/// The columns of the points. Turns are scaled to the norm of a displacement's column, so that receptances in rad and
-/// in m can be compared.
-linalg::SparseMatrix point_loads(const Model& model, const std::vector<NamedPoint>& points) {
-  std::vector<Eigen::Triplet<double>> entries;
-  int columns = 0;
-  for (const NamedPoint& point : points) {
-    const linalg::SparseMatrix w = point_columns(model, point);
-    for (Eigen::Index j = 0; j < w.cols(); ++j, ++columns) {
-      const bool turn = j >= static_cast<Eigen::Index>(point.directions.size());
-      const double scale = turn && !point.directions.empty() ? w.col(0).norm() / w.col(j).norm() : 1.0;
-      for (linalg::SparseMatrix::InnerIterator it(w, j); it; ++it)
-        entries.emplace_back(static_cast<int>(it.row()), columns, scale * it.value());
-    }
-  }
-  linalg::SparseMatrix W(model.K.rows(), columns);
-  W.setFromTriplets(entries.begin(), entries.end());
-  return W;
-}
 
 /// The materials of a part on a mesh.
 Materials materials_of(const SolidPart& part, const mesh::TetMesh& mesh) {
@@ -63,20 +44,11 @@ Solution prepared(const SolidPart& part, const mesh::TetMesh& mesh, int order, c
   return {std::move(model), std::move(factored), {}, {}};
 }
 
-/// The amplitudes and the flexibility of the points, if there are any.
-Responses responses_of(const Model& model, const Factored& factored, const Modes& modes,
-                       const ToleranceOptions& options) {
-  if (options.points.empty()) return {};
-  const linalg::SparseMatrix W = point_loads(model, options.points);
-  return {modes.pairs.lambda.array(), factored.sigma, W.transpose() * modes.pairs.Phi,
-          W.transpose() * factored.factor.solve(Eigen::MatrixXd(W))};
-}
-
 /// The solution of the given order on a mesh, with its modes.
 Solution solve(const SolidPart& part, const mesh::TetMesh& mesh, int order, const ToleranceOptions& options) {
   Solution s = prepared(part, mesh, order, options);
   s.modes = modes(s.model, s.factored, options.modes);
-  s.responses = responses_of(s.model, s.factored, s.modes, options);
+  s.responses = responses_of(s.model, s.factored, s.modes, options.points);
   return s;
 }
 
@@ -89,7 +61,7 @@ Solution solve_below(const SolidPart& part, const Solution& above, const Toleran
   start.Phi = interpolated(above.model, start.Phi, s.model);
   auto near = modes_near(s.model, s.factored, std::move(start), 0.1 * std::sqrt(options.tolerance));
   s.modes = near ? std::move(*near) : modes(s.model, s.factored, options.modes);
-  s.responses = responses_of(s.model, s.factored, s.modes, options);
+  s.responses = responses_of(s.model, s.factored, s.modes, options.points);
   return s;
 }
 
@@ -100,74 +72,6 @@ double frequency_change(const Modes& a, const Modes& b) {
   const auto fa = a.frequency_hz.segment(a.rigid_motions, elastic).array();
   const auto fb = b.frequency_hz.segment(b.rigid_motions, elastic).array();
   return ((fa - fb) / fb).abs().maxCoeff();
-}
-
-/// The receptance between the points over the known modes k and all others, whose contribution is taken at the shift,
-/// where the factor gives it exactly: H(ω²) = Wᵀ(K − σM)⁻¹W + Σ_k a_k a_kᵀ (1/(λ_k − ω²) − 1/(λ_k − σ)).
-Eigen::MatrixXd receptance(const Responses& s, double omega_squared) {
-  const Eigen::VectorXd share = (s.lambda - omega_squared).inverse() - (s.lambda - s.sigma).inverse();
-  return s.flexibility + s.amplitudes * share.asDiagonal() * s.amplitudes.transpose();
-}
-
-/// The scale for the error of every entry of a receptance. The diagonal of B = Σ |a| |a|ᵀ / |λ − ω²|, plus the
-/// magnitude of the other modes' contribution, is the receptance that the modes' contributions would add up to if none
-/// cancelled. At an antiresonance they do cancel, and an error relative to the remainder would say nothing about the
-/// model. The entry (i, j) has the scale √(B_ii B_jj), which bounds it (Cauchy-Schwarz) and leaves one that vanishes by
-/// symmetry a scale.
-Eigen::MatrixXd magnitudes(const Responses& s, double omega_squared) {
-  const Eigen::VectorXd share = (s.lambda - omega_squared).inverse().abs();
-  const Eigen::VectorXd at_shift = (s.lambda - s.sigma).inverse();
-  const Eigen::MatrixXd squares = s.amplitudes.cwiseAbs2();
-  const Eigen::VectorXd rest = (s.flexibility.diagonal() - squares * at_shift).cwiseAbs();
-  const Eigen::VectorXd root = (rest + squares * share).cwiseSqrt();
-  return root * root.transpose();
-}
-
-/// Values of ω² at which receptances are compared: the shift, then up to five places midway between frequencies at
-/// least 25 % apart, away from resonances.
-std::vector<double> compared_omega_squared(const Modes& modes, double sigma) {
-  std::vector<double> places{sigma};
-  for (Eigen::Index k = std::max(modes.rigid_motions, 0); k + 1 < modes.frequency_hz.size(); ++k) {
-    if (modes.frequency_hz(k) <= 0.0 || modes.frequency_hz(k + 1) < 1.25 * modes.frequency_hz(k)) continue;
-    const double middle = std::numbers::pi * (modes.frequency_hz(k) + modes.frequency_hz(k + 1));
-    places.push_back(middle * middle);
-    if (places.size() == 6) break;
-  }
-  return places;
-}
-
-/// The largest change of a receptance between the points: relative to the largest magnitude, and relative to the
-/// entry's own, with the entry.
-struct ReceptanceChange {
-  double of_largest = 0.0, of_own = 0.0;
-  Eigen::Index row = 0, column = 0;
-};
-
-/// The change between two solutions, relative to the magnitudes() of the second one, whose modes are given.
-ReceptanceChange receptance_change(const Responses& a, const Responses& b, const Modes& modes) {
-  ReceptanceChange worst;
-  for (const double place : compared_omega_squared(modes, b.sigma)) {
-    // Both at the same place: the shifts of a free part, which scale with the matrices, differ by half between orders,
-    // and its rigid motions have a receptance there that is inverse to it.
-    const Eigen::MatrixXd change = (receptance(a, place) - receptance(b, place)).cwiseAbs();
-    const Eigen::MatrixXd magnitude = magnitudes(b, place);
-    worst.of_largest = std::max(worst.of_largest, change.maxCoeff() / magnitude.maxCoeff());
-    Eigen::Index row = 0, column = 0;
-    const double of_own = change.cwiseQuotient(magnitude).maxCoeff(&row, &column);
-    if (of_own > worst.of_own) worst = {worst.of_largest, of_own, row, column};
-  }
-  return worst;
-}
-
-/// The name of a receptance between two columns of point_loads(): "P.x", or "P.x to Q.z".
-std::string receptance_name(const std::vector<NamedPoint>& points, Eigen::Index row, Eigen::Index column) {
-  std::vector<std::string> names;
-  for (const NamedPoint& point : points) {
-    for (const auto& d : point.directions) names.push_back(dynamics::name({point.name, d}));
-    for (const auto& d : point.turns) names.push_back(dynamics::name({point.name, d, dynamics::DofKind::rotation}));
-  }
-  const std::string& to = names[static_cast<std::size_t>(row)];
-  return row == column ? to : names[static_cast<std::size_t>(column)] + " to " + to;
 }
 
 /// Adds what changes of the receptances between the points from one solution to the next, whose modes are given.
@@ -194,20 +98,29 @@ bool fits(const mesh::TetMesh& mesh, int order, const ToleranceOptions& options)
   return options.largest_dofs == 0 || 3 * mesh::lagrange_node_count(mesh, order) <= options.largest_dofs;
 }
 
-/// The least singular exponents of the part's edges, by which the errors of frequencies and of receptances fall; 1
-/// where all is regular.
-struct Exponents {
-  double frequency = 1.0, receptance = 1.0;
+/// The exponents by which an error falls: the least one of the part's edges, and that of the edges that are not
+/// re-entrant; 1 where all is regular.
+struct Exponent {
+  double least = 1.0, otherwise = 1.0;
 };
 
-/// The exponents of a part: of its re-entrant edges, or else, for frequencies, of the edges of its clamps. Of several
-/// materials the largest Poisson's ratio counts.
-Exponents exponents(const SolidPart& part, const Materials& materials, const ToleranceOptions& options) {
-  if (options.reentrant_edges) return {reentrant_edge_exponent, reentrant_edge_exponent};
-  if (part.supports.empty() && part.attachments.clamps.empty()) return {};
+struct Exponents {
+  Exponent frequency, receptance;
+};
+
+/// The exponent of the edges of a part's clamps for frequencies; 1 if it has none. Of several materials the largest
+/// Poisson's ratio counts.
+double exponent_of_clamps(const SolidPart& part, const Materials& materials) {
+  if (part.supports.empty() && part.attachments.clamps.empty()) return 1.0;
   double poisson_ratio = -1.0;
   for (const Material& material : materials.list) poisson_ratio = std::max(poisson_ratio, material.poisson_ratio);
-  return {clamped_edge_exponent(poisson_ratio), 1.0};
+  return clamped_edge_exponent(poisson_ratio);
+}
+
+Exponents exponents(const SolidPart& part, const Materials& materials, const ToleranceOptions& options) {
+  const double clamps = exponent_of_clamps(part, materials);
+  if (!options.reentrant_edges) return {{clamps, clamps}, {}};
+  return {{reentrant_edge_exponent, clamps}, {reentrant_edge_exponent, 1.0}};
 }
 
 /// The ratio r of the error at `order` to the error at the order below it (docs/theory/elements.md). Beside an edge of
@@ -217,27 +130,44 @@ double error_ratio(int order, double exponent) {
   return std::max(0.5, std::pow((order - 0.5) / (order + 0.5), 4.0 * exponent));
 }
 
+/// The error of the last order over the last change: r / (1 − r) by the law of error_ratio(). Beside a re-entrant edge
+/// the last two changes on one mesh may have a ratio q below r. Then the change has a smooth share, too, which falls by
+/// ρ = 1/10 an order where the singular one falls by r (docs/theory/elements.md): of the last change the share s = r (q
+/// − ρ) / (q (r − ρ)) is singular, and the error is s r / (1 − r) + (1 − s) ρ / (1 − ρ), at least as the other edges
+/// have it.
+double error_over_change(const std::vector<RefinementStep>& steps, std::optional<double> RefinementStep::*change,
+                         const Exponent& exponent) {
+  constexpr double smooth = 0.1;
+  const RefinementStep& last = steps.back();
+  const double r = error_ratio(last.order, exponent.least), others = error_ratio(last.order, exponent.otherwise);
+  const double singular = r / (1.0 - r);
+  const bool one_mesh = steps.size() > 1 && steps[steps.size() - 2].level == last.level;
+  const double before = one_mesh ? (steps[steps.size() - 2].*change).value_or(0.0) : 0.0;
+  const double q = before > 0.0 ? (last.*change).value_or(0.0) / before : r;
+  const double share = q > smooth ? std::min(1.0, r * (q - smooth) / (q * (r - smooth))) : 0.0;
+  const double error = share * singular + (1.0 - share) * smooth / (1.0 - smooth);
+  return std::max(error, std::min(singular, others / (1.0 - others)));
+}
+
 /// The estimated errors of a solution. That of an entry by its own magnitude is told, and held to no tolerance: a stiff
 /// direction may be thousands of times stiffer than the one that chatters, and its error falls slowly, for it comes
 /// from the edge of the loaded disc, which no edge of an element follows.
 struct Errors {
   double frequency = 0.0, receptance = 0.0, entry = 0.0;
+  std::string worst_receptance{};
   [[nodiscard]] double worst() const { return std::max(frequency, receptance); }
 };
 
-/// The errors of the lower one of the last two orders, d / (1 − r) with d the last changes.
-Errors errors_of_lower(const RefinementStep& last, const Exponents& exponent) {
-  const double receptance = 1.0 / (1.0 - error_ratio(last.order, exponent.receptance));
-  return {last.frequency_change.value_or(0.0) / (1.0 - error_ratio(last.order, exponent.frequency)),
-          last.receptance_change.value_or(0.0) * receptance, last.entry_change.value_or(0.0) * receptance};
-}
-
-/// The errors of the higher one, r d / (1 − r).
-Errors errors_of_higher(const RefinementStep& last, const Exponents& exponent) {
-  const Errors lower = errors_of_lower(last, exponent);
-  const double receptance = error_ratio(last.order, exponent.receptance);
-  return {error_ratio(last.order, exponent.frequency) * lower.frequency, receptance * lower.receptance,
-          receptance * lower.entry};
+/// The errors of the last two solutions on one mesh: of the higher e d, with d the last changes and e the
+/// error_over_change(), and of the lower (1 + e) d.
+std::pair<Errors, Errors> errors_of_last_two(const std::vector<RefinementStep>& steps, const Exponents& exponent) {
+  const RefinementStep& last = steps.back();
+  const double f = error_over_change(steps, &RefinementStep::frequency_change, exponent.frequency);
+  const double r = error_over_change(steps, &RefinementStep::receptance_change, exponent.receptance);
+  const double frequency = last.frequency_change.value_or(0.0), receptance = last.receptance_change.value_or(0.0);
+  const double entry = last.entry_change.value_or(0.0);
+  return {{(1.0 + f) * frequency, (1.0 + r) * receptance, (1.0 + r) * entry, last.worst_receptance},
+          {f * frequency, r * receptance, r * entry, last.worst_receptance}};
 }
 
 /// The factor by which the levels left reduce an error at best, q²ⁿ with q ≤ 1 the ratio of the last change to that of
@@ -257,14 +187,186 @@ double error_after(int left, const Errors& errors, const std::vector<RefinementS
                   errors.receptance * factor_of_levels(steps, &RefinementStep::receptance_change, left));
 }
 
-/// The solution with its estimated errors.
-Refined finished(Solution&& s, Estimate&& estimate, const Errors& errors) {
-  estimate.frequency = errors.frequency;
-  estimate.receptance = errors.receptance;
-  estimate.entry = errors.entry;
-  estimate.worst_receptance = estimate.steps.back().worst_receptance;
-  estimate.met = errors.worst() <= estimate.tolerance;
-  return {std::move(s.model), std::move(s.factored), std::move(s.modes), std::move(estimate)};
+/// A solution on the way, with its estimated errors.
+struct Found {
+  Solution solution;
+  Errors errors;
+  int level = 0;
+};
+
+/// The refinement of a part, as far as it has come.
+struct Refinement {
+  const SolidPart& part;
+  const ToleranceOptions& options;
+  Exponents exponent;
+  mesh::TetMesh mesh;  // of the last solution
+  Estimate estimate;
+  std::optional<Found> now;       // the last solution
+  std::optional<Found> better{};  // one of the level before, while its error is smaller
+};
+
+/// The best solution with its estimated errors.
+Refined finished(Refinement&& r) {
+  Found& best = r.better && r.better->errors.worst() < r.now->errors.worst() ? *r.better : *r.now;
+  Estimate& estimate = r.estimate;
+  estimate.frequency = best.errors.frequency;
+  estimate.receptance = best.errors.receptance;
+  estimate.entry = best.errors.entry;
+  estimate.worst_receptance = best.errors.worst_receptance;
+  estimate.met = best.errors.worst() <= estimate.tolerance;
+  if (estimate.met) estimate.held_back_by.clear();
+  Solution& s = best.solution;
+  return {std::move(s.model), std::move(s.factored), std::move(s.modes), std::move(estimate), best.level};
+}
+
+void add_step(Refinement& r, RefinementStep step) {
+  if (r.options.solved) r.options.solved(step);
+  r.estimate.steps.push_back(std::move(step));
+}
+
+/// Adds the comparison of two successive orders on one mesh; returns the errors of both.
+std::pair<Errors, Errors> compared(Refinement& r, int level, const Solution& below, const Solution& above) {
+  const Model& model = above.model;
+  RefinementStep step{level, model.nodes.order, model.K.rows(), frequency_change(below.modes, above.modes), {}};
+  compare_receptances(below.responses, above.responses, above.modes, r.options.points, step);
+  add_step(r, std::move(step));
+  return errors_of_last_two(r.estimate.steps, r.exponent);
+}
+
+/// Solves the first two orders on a mesh, the higher one first: the modes of the lower one, which only the estimate
+/// needs, follow from it by inverse iteration. If the lower one meets the tolerance, its modes are computed in full.
+void begin_level(Refinement& r, int level, mesh::TetMesh mesh) {
+  const ToleranceOptions& options = r.options;
+  Solution above = solve(r.part, mesh, options.first_order + 1, options);
+  if (level == 0 && options.points_hold && above.factored.sigma != 0.0)
+    require_motions_determined(above.model, above.modes, above.responses.amplitudes);
+  Solution below = solve_below(r.part, above, options);
+  add_step(r, {level, options.first_order, below.model.K.rows(), {}, {}});
+  const auto [of_below, of_above] = compared(r, level, below, above);
+  if (r.now && !(r.better && r.better->errors.worst() < r.now->errors.worst())) r.better = std::move(r.now);
+  r.mesh = std::move(mesh);
+  r.now = Found{std::move(above), of_above, level};
+  if (of_below.worst() > options.tolerance) return;
+  below.modes = modes(below.model, below.factored, options.modes);
+  r.now = Found{std::move(below), of_below, level};
+}
+
+/// The memory that a solution takes, by one that is known: that of K, M and K − σM grows as the entries of all
+/// elements' matrices, that of the factor as n^{4/3} (George 1973, for bodies; less for plates).
+double bytes_of(const mesh::TetMesh& mesh, int order, const Solution& known) {
+  const auto entries = [](const mesh::TetMesh& m, int p) {
+    return static_cast<double>(m.tets.size()) * std::pow((p + 1) * (p + 2) * (p + 3) / 6.0, 2);
+  };
+  const Model& model = known.model;
+  const double rows =
+      static_cast<double>(mesh::lagrange_node_count(mesh, order)) / static_cast<double>(model.nodes.positions.rows());
+  const double matrices = 3.0 * 12.0 * static_cast<double>(model.K.nonZeros());
+  return matrices * entries(mesh, order) / entries(model.mesh, model.nodes.order) +
+         known.factored.factor.statistics().bytes * std::pow(rows, 4.0 / 3.0);
+}
+
+void require_memory(const Refinement& r, const mesh::TetMesh& mesh, int order) {
+  core::require_memory(bytes_of(mesh, order, r.now->solution),
+                       "a solution of " + std::to_string(3 * mesh::lagrange_node_count(mesh, order)) +
+                           " degrees of freedom at order " + std::to_string(order));
+}
+
+/// Solves the next order on the mesh. The order before stays the result if it meets the tolerance.
+void raise_order(Refinement& r) {
+  const int order = r.now->solution.model.nodes.order + 1;
+  require_memory(r, r.mesh, order);
+  Solution above = solve(r.part, r.mesh, order, r.options);
+  const auto [of_below, of_above] = compared(r, r.now->level, r.now->solution, above);
+  if (of_below.worst() <= r.options.tolerance) {
+    r.now->errors = of_below;
+  } else {
+    r.now = Found{std::move(above), of_above, r.now->level};
+  }
+}
+
+/// True if raising the order on this mesh may meet the tolerance. Away from re-entrant edges one order reduces the
+/// error by a factor of ten, at most thirty. Beside them the orders left reduce it at best by q² each, with q the ratio
+/// of the last two changes on this mesh; by a factor of five each before that ratio is known (thirteen by two orders
+/// was seen).
+bool orders_may_do(const Refinement& r) {
+  const double error = r.now->errors.worst();
+  if (!r.options.reentrant_edges) return error <= 30.0 * r.options.tolerance;
+  const auto change = [](const RefinementStep& s) {
+    return std::max(s.frequency_change.value_or(0.0), s.receptance_change.value_or(0.0));
+  };
+  const auto& steps = r.estimate.steps;
+  const double last = change(steps.back()), before = change(steps[steps.size() - 2]);  // 0 of a level's first order
+  const double of_one = before > 0.0 ? std::pow(std::min(1.0, last / before), 2) : 0.2;
+  return error * std::pow(of_one, r.options.last_order - steps.back().order) <= r.options.tolerance;
+}
+
+/// Does a step of the refinement. False if it fails for memory or because a mesh cannot be made or solved, which ends
+/// up in held_back_by; the solutions before it are kept.
+bool succeeds(Refinement& r, const std::function<void()>& step) {
+  std::string cause = "out of memory";
+  try {
+    step();
+    return true;
+  } catch (const std::bad_alloc&) {
+  } catch (const core::NumericalError& error) {
+    cause = error.what();
+  }
+  r.estimate.held_back_by = "the next solution could not be had: " + cause;
+  return false;
+}
+
+/// Takes the next level. False if it cannot be had.
+bool takes_finer_level(Refinement& r) {
+  const int level = r.now->level + 1, order = r.options.first_order + 1;
+  bool fitting = true;
+  const auto step = [&] {
+    mesh::TetMesh finer = r.part.mesh(level);
+    fitting = fits(finer, order, r.options);
+    if (!fitting) return;
+    require_memory(r, finer, order);
+    begin_level(r, level, std::move(finer));
+  };
+  if (!succeeds(r, step)) return false;
+  if (!fitting) r.estimate.held_back_by = too_large;
+  return fitting;
+}
+
+/// Refines until the tolerance is met, or nothing is left that could be solved.
+void refine(Refinement& r) {
+  const ToleranceOptions& options = r.options;
+  bool more_levels = true;
+  while (r.now->errors.worst() > options.tolerance) {
+    core::check_interrupt();
+    if (r.better && r.now->errors.worst() <= r.better->errors.worst()) r.better.reset();
+    const int levels_left = options.levels - 1 - r.now->level, order = r.now->solution.model.nodes.order;
+    if (more_levels && levels_left > 0 && (order == options.last_order || !orders_may_do(r))) {
+      const double reach = error_after(levels_left, r.now->errors, r.estimate.steps);
+      if (reach > 2.0 * options.tolerance) {
+        r.estimate.within_reach = reach;
+        return;
+      }
+      more_levels = takes_finer_level(r);
+      continue;
+    }
+    if (order == options.last_order) return;
+    if (!fits(r.mesh, order + 1, options)) {
+      r.estimate.held_back_by = too_large;
+      return;
+    }
+    if (!succeeds(r, [&r] { raise_order(r); })) return;
+  }
+}
+
+/// Refines within the time that is left of the budget.
+void refine_in_time(Refinement& r, double seconds_gone) {
+  const double budget = r.options.time_budget_s;
+  try {
+    std::optional<core::TimeLimit> limit;
+    if (budget > 0.0) limit.emplace(budget - seconds_gone);
+    refine(r);
+  } catch (const core::TimeIsOver&) {
+    r.estimate.held_back_by = "the " + core::number_text(budget, 3) + " s for its solutions were over";
+  }
 }
 
 }  // namespace
@@ -279,58 +381,16 @@ void require_fit(const mesh::TetMesh& mesh, const ToleranceOptions& options) {
 }
 
 Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& options) {
+  using Clock = std::chrono::steady_clock;
   validate(options);
-  Estimate estimate;
-  estimate.tolerance = options.tolerance;
+  const auto start = Clock::now();
   mesh::TetMesh mesh = part.mesh(0);
   require_fit(mesh, options);
-  const Exponents exponent = exponents(part, materials_of(part, mesh), options);
-  for (int level = 0;; ++level) {
-    bool last_level = level + 1 == options.levels;
-    // The higher of the first two orders is solved first: the modes of the lower one, which only the estimate needs,
-    // follow from it by inverse iteration.
-    Solution now = solve(part, mesh, options.first_order + 1, options);
-    if (level == 0 && options.points_hold && now.factored.sigma != 0.0)
-      require_motions_determined(now.model, now.modes, now.responses.amplitudes);
-    Solution below = solve_below(part, now, options);
-    estimate.steps.push_back({level, options.first_order, below.model.K.rows(), {}, {}});
-    for (int order = options.first_order + 1;; ++order) {
-      RefinementStep step{level, order, now.model.K.rows(), frequency_change(below.modes, now.modes), {}};
-      compare_receptances(below.responses, now.responses, now.modes, options.points, step);
-      estimate.steps.push_back(step);
-      const Errors of_lower = errors_of_lower(step, exponent);
-      const Errors of_higher = errors_of_higher(step, exponent);
-      if (of_lower.worst() <= options.tolerance) {
-        // These modes are only as accurate as the estimate needs; as a result they are computed in full.
-        if (order == options.first_order + 1) below.modes = modes(below.model, below.factored, options.modes);
-        return finished(std::move(below), std::move(estimate), of_lower);
-      }
-      if (of_higher.worst() <= options.tolerance || (last_level && order == options.last_order))
-        return finished(std::move(now), std::move(estimate), of_higher);
-      // The next level is taken if another order cannot reach the tolerance. Away from re-entrant edges one order
-      // reduces the error by a factor of ten, at most thirty; beside them by the factor of error_ratio().
-      const double next = options.reentrant_edges ? error_ratio(order + 1, reentrant_edge_exponent) : 1.0 / 30.0;
-      if (!last_level && (order == options.last_order || next * of_higher.worst() > options.tolerance)) {
-        const double reach = error_after(options.levels - 1 - level, of_higher, estimate.steps);
-        if (reach > 2.0 * options.tolerance) {
-          estimate.within_reach = reach;
-          return finished(std::move(now), std::move(estimate), of_higher);
-        }
-        mesh::TetMesh finer = part.mesh(level + 1);
-        if (fits(finer, options.first_order + 1, options)) {
-          mesh = std::move(finer);
-          break;
-        }
-        last_level = true;
-        estimate.held_back = true;
-      }
-      estimate.held_back = estimate.held_back || !fits(mesh, order + 1, options);
-      if (order == options.last_order || !fits(mesh, order + 1, options))
-        return finished(std::move(now), std::move(estimate), of_higher);
-      below = std::move(now);
-      now = solve(part, mesh, order + 1, options);
-    }
-  }
+  Refinement r{part, options, exponents(part, materials_of(part, mesh), options), {}, {}, {}};
+  r.estimate.tolerance = options.tolerance;
+  begin_level(r, 0, std::move(mesh));
+  refine_in_time(r, std::chrono::duration<double>(Clock::now() - start).count());
+  return finished(std::move(r));
 }
 
 Estimate estimate_by_next_order(const Model& model, const Factored& factored, const Modes& modes, const Model& higher,
@@ -338,17 +398,17 @@ Estimate estimate_by_next_order(const Model& model, const Factored& factored, co
   const Factored next_factored = factorise(higher, options.memory_limit_bytes);
   const Modes next = fem::modes(higher, next_factored, options.modes);
   RefinementStep step{0, higher.nodes.order, higher.K.rows(), frequency_change(modes, next), {}};
-  compare_receptances(responses_of(model, factored, modes, options), responses_of(higher, next_factored, next, options),
-                      next, options.points, step);
-  const double exponent = options.reentrant_edges ? reentrant_edge_exponent : 1.0;
-  const Errors errors = errors_of_lower(step, {exponent, exponent});
+  compare_receptances(responses_of(model, factored, modes, options.points),
+                      responses_of(higher, next_factored, next, options.points), next, options.points, step);
+  const double least = options.reentrant_edges ? reentrant_edge_exponent : 1.0;
   Estimate estimate;
+  estimate.steps = {{0, model.nodes.order, model.K.rows(), {}, {}}, step};
+  const Errors errors = errors_of_last_two(estimate.steps, {{least, 1.0}, {least, 1.0}}).first;
   estimate.frequency = errors.frequency;
   estimate.receptance = errors.receptance;
   estimate.entry = errors.entry;
   estimate.worst_receptance = step.worst_receptance;
   estimate.met = true;  // nothing was asked for
-  estimate.steps = {{0, model.nodes.order, model.K.rows(), {}, {}}, step};
   return estimate;
 }
 

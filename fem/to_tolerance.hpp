@@ -25,20 +25,6 @@ struct SolidPart {
   std::function<Materials(const mesh::TetMesh&)> materials{};  ///< used instead of material, if set
 };
 
-/// Options of refine_to_tolerance().
-struct ToleranceOptions {
-  double tolerance = 1e-3;  ///< relative, on frequencies and receptances; 1e-6 to 0.1
-  ModeOptions modes;
-  std::vector<NamedPoint> points;  ///< points between which receptances must meet the tolerance
-  bool points_hold = false;        ///< true if the points must determine all rigid motions
-  int first_order = 4;             ///< first order of a level; 1 to 5
-  int last_order = 6;              ///< last order of a level; above first_order, to 6
-  int levels = 4;
-  bool reentrant_edges = false;     ///< true if the part has a re-entrant edge, beside which errors fall more slowly
-  double memory_limit_bytes = 0.0;  ///< limit for a factor; 0: none
-  std::int64_t largest_dofs = 0;    ///< no model with more rows than this before supports is solved; 0: no bound
-};
-
 /// One solution on the way: its size, and its difference from the one before it on the same mesh.
 struct RefinementStep {
   int level = 0;
@@ -50,21 +36,40 @@ struct RefinementStep {
   std::string worst_receptance{};           ///< name of that entry, "P.x" or "P.x to Q.z"
 };
 
+/// Options of refine_to_tolerance().
+struct ToleranceOptions {
+  double tolerance = 1e-3;  ///< relative, on frequencies and receptances; 1e-6 to 0.1
+  ModeOptions modes;
+  std::vector<NamedPoint> points;  ///< points between which receptances must meet the tolerance
+  bool points_hold = false;        ///< true if the points must determine all rigid motions
+  int first_order = 4;             ///< first order of a level; 1 to 5
+  int last_order = 6;              ///< last order of a level; above first_order, to 6
+  int levels = 4;
+  bool reentrant_edges = false;     ///< true if the part has a re-entrant edge, beside which errors fall more slowly
+  double memory_limit_bytes = 0.0;  ///< limit for a factor; 0: the memory that is left
+  std::int64_t largest_dofs = 0;    ///< no model with more rows than this before supports is solved; 0: no bound
+  double time_budget_s = 0.0;       ///< wall time after which nothing more is solved than the first two orders; 0: none
+  std::function<void(const RefinementStep&)> solved{};  ///< is told of each solution as soon as it is known, if set
+};
+
 /// The estimated error of a solution (docs/theory/elements.md, Eq. 3-4). Two orders p and p + 1 on one mesh differ by
 /// d. If the error of the higher is r times that of the lower, the error of the lower is d / (1 − r) and that of the
 /// higher r d / (1 − r). At an edge of exponent λ where the elements are not graded from all sides the error falls as
 /// (p+½)^−4λ (Babuska & Suri 1994): r = ((p+½)/(p+3/2))^4λ. Frequencies take λ of the edges of clamps
 /// (clamped_edge_exponent()): 0.57 from order 4 to 5 and 0.62 from 5 to 6 for steel. Beside a re-entrant edge λ is
-/// 0.544 for receptances too: 0.65 and 0.70. Otherwise, and at least, r = 1/2, because the law does not hold at low
-/// orders; with elements graded to all edges r is smaller.
+/// 0.544 for receptances too: 0.65 and 0.70, or less where the last two changes on one mesh show a smooth share of the
+/// error, which falls by ten an order. Otherwise, and at least, r = 1/2, because the law does not hold at low orders;
+/// with elements graded to all edges r is smaller.
 struct Estimate {
   double frequency = 0.0;          ///< largest relative error
   double receptance = 0.0;         ///< largest error of a receptance by the largest magnitude; 0 without points
   double entry = 0.0;              ///< largest error of a receptance by its own magnitude; held to no tolerance
   std::string worst_receptance{};  ///< name of the receptance of that error, "P.x" or "P.x to Q.z"
   double tolerance = 0.0;          ///< 0: none was asked for
-  bool met = false;                ///< false if all levels were used or the next solution would exceed largest_dofs
-  bool held_back = false;          ///< true if largest_dofs ended the refinement
+  bool met = false;                ///< false if all levels were used, or the refinement was held back
+  /// What ended the refinement before the tolerance was met or all levels were used, as the end of a sentence: "the
+  /// time_budget of 24 s was over"; otherwise empty.
+  std::string held_back_by{};
   /// The error to which all levels would have come at best, where the refinement was ended because that is more than
   /// twice the tolerance; otherwise 0.
   double within_reach = 0.0;
@@ -78,6 +83,7 @@ struct [[nodiscard]] Refined {
   Factored factored;
   Modes modes;
   Estimate estimate;
+  int level = 0;  ///< level of its mesh; not the last one of the steps where that one's error is larger
 };
 
 /// Throws InputError if the first two orders on the coarsest mesh exceed options.largest_dofs.
@@ -85,17 +91,20 @@ void require_fit(const mesh::TetMesh& mesh, const ToleranceOptions& options);
 
 /// Solves a part to a tolerance. The order is raised on a mesh, beginning with first_order, whose modes are made from
 /// those of the next order (modes_near()) to a hundredth of the tolerance, and computed anew if they are returned. If
-/// the estimate is still above the tolerance at last_order, or too far above it for an order to help, the next level is
-/// taken (Babuska & Guo 1992: convergence is exponential with elements graded to edges and rising order). It is not if
-/// it would be in vain: the changes of one order on two successive levels have the ratio q, at most 1, and an error e
-/// is at best e q²ⁿ after the n levels left, for convergence may become faster; more than twice the tolerance ends the
-/// refinement. Receptances between the points are compared entry by entry, relative to the largest √(B_ii B_jj), which
-/// is held to the tolerance, and relative to each entry's own, where B_ii is the sum of the magnitudes of all modes'
-/// contributions to the direct receptance; at zero (or at the shift of a free part) and midway between resonances more
-/// than a quarter apart, for nearer to a resonance the error of its frequency would be magnified. Throws InputError for
-/// options out of range, for largest_dofs below the size of the first two orders on the first level, for points that do
-/// not determine the rigid motions although they must, and what the steps throw. Cost: that of the last step, and about
-/// a third more for those before.
+/// the estimate is still above the tolerance at last_order, or too far above it for the orders left to help, the next
+/// level is taken (Babuska & Guo 1992: convergence is exponential with elements graded to edges and rising order). It
+/// is not if it would be in vain: the changes of one order on two successive levels have the ratio q, at most 1, and an
+/// error e is at best e q²ⁿ after the n levels left, for convergence may become faster; more than twice the tolerance
+/// ends the refinement. Orders are judged likewise beside re-entrant edges, by the ratio of two successive changes on
+/// one mesh. A solution after the first two that fails, for memory, for time_budget_s or for its mesh, ends the
+/// refinement, too; the result is the solution of the least estimated error. Receptances between the points are
+/// compared entry by entry, relative to the largest √(B_ii B_jj), which is held to the tolerance, and relative to each
+/// entry's own, where B_ii is the sum of the magnitudes of all modes' contributions to the direct receptance; at zero
+/// (or at the shift of a free part) and midway between resonances more than a quarter apart, for nearer to a resonance
+/// the error of its frequency would be magnified. Throws InputError for options out of range, for largest_dofs below
+/// the size of the first two orders on the first level, for points that do not determine the rigid motions although
+/// they must, what the first two solutions throw, and Interrupted. Cost: that of the last step, and about a third more
+/// for those before.
 Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& options);
 
 /// The estimated error of a solution on a mesh that is given, by the one of the next order: d / (1 − r), with r by the

@@ -13,6 +13,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <exception>
 #include <fstream>
 #include <new>
 #include <string>
@@ -96,18 +97,20 @@ void belong_to(pid_t parent, int out) {
 struct Outcome {
   std::vector<char> bytes;
   bool timed_out = false;
-  bool interrupted = false;
+  std::exception_ptr stopped;  // what core::check_interrupt() threw, if it did
 };
 
-/// Reads from a pipe until its writer closes it, the time limit passes or the user interrupts.
+/// Reads from a pipe until its writer closes it, the time limit passes, or the computation is to stop.
 Outcome read_until_closed(int in, double time_limit_s) {
   using Clock = std::chrono::steady_clock;
   const auto deadline = Clock::now() + std::chrono::duration<double>(time_limit_s);
   Outcome outcome;
   std::vector<char> buffer(1U << 18U);
   for (;;) {
-    if (core::interrupt_requested()) {
-      outcome.interrupted = true;
+    try {
+      core::check_interrupt();
+    } catch (...) {
+      outcome.stopped = std::current_exception();
       return outcome;
     }
     if (Clock::now() > deadline) {
@@ -199,11 +202,11 @@ std::vector<char> run_confined(const std::function<std::vector<char>()>& work, d
   close(ends[1]);
   Outcome outcome = read_until_closed(ends[0], time_limit_s);
   close(ends[0]);
-  if (outcome.timed_out || outcome.interrupted) kill(pid, SIGKILL);
+  if (outcome.timed_out || outcome.stopped) kill(pid, SIGKILL);
   int status = 0;
   while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
   }
-  if (outcome.interrupted) throw core::Interrupted();
+  if (outcome.stopped) std::rethrow_exception(outcome.stopped);
   if (outcome.timed_out) throw core::NumericalError("it did not finish within " + std::to_string(time_limit_s) + " s");
   if (!WIFEXITED(status) || WEXITSTATUS(status) != wrote_all) throw core::NumericalError(cause(status));
   return std::move(outcome.bytes);

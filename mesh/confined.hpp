@@ -17,7 +17,7 @@ struct ProcessLimits {
 /// The bytes that `work` returned, after it has run in a forked process under the limits. A process is used because
 /// meshers abort, throw, crash or hang on some input. It may not take more memory than is left for this process
 /// (core::memory_left_bytes()). Throws NumericalError if the process is killed, crashes, throws
-/// or exceeds a limit; Interrupted if the user stops the run.
+/// or exceeds a limit; Interrupted if the user stops the run, and as core::check_interrupt().
 [[nodiscard]] std::vector<char> run_confined(const std::function<std::vector<char>()>& work, double time_limit_s,
                                              double memory_limit_bytes);
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "report/lobes_words.hpp"
+#include "report/mesh_answer.hpp"
 
 namespace thinwall::report {
 
@@ -149,6 +150,7 @@ std::vector<std::string> sensitivity_sentences(const LobesSummary& chart) {
 
 std::vector<std::string> answer_sentences(const Summary& summary) {
   std::vector<std::string> list;
+  if (const std::string text = tolerance_not_met(summary); !text.empty()) list.push_back(as_sentence("the mesh", text));
   for (const LobesSummary& chart : summary.lobes) {
     std::ranges::move(sensitivity_sentences(chart), std::back_inserter(list));
     for (const std::string& line : chart_notes(chart)) list.push_back(as_sentence(chart_title(chart.name), line));

@@ -33,6 +33,7 @@ std::optional<MeshEstimateSummary> estimate_of(const study::PartResult& part) {
                              .max_relative_receptance_error = part.estimate->receptance,
                              .max_relative_entry_error = part.estimate->entry,
                              .worst_receptance = part.estimate->worst_receptance,
+                             .held_back_by = part.estimate->held_back_by,
                              .steps = {}};
   for (const auto& step : part.estimate->steps) {
     result.steps.push_back({.level = step.level,

@@ -10,6 +10,7 @@
 #include "report/lobes_answers.hpp"
 #include "report/lobes_report.hpp"
 #include "report/lobes_words.hpp"
+#include "report/mesh_answer.hpp"
 #include "report/page/limit_text.hpp"
 #include "report/path_report.hpp"
 #include "report/simulation/simulation_report.hpp"
@@ -43,6 +44,7 @@ std::string best(const LobesSummary& lobes) {
 }
 
 void answer(std::string& out, const Summary& summary) {
+  if (const std::string text = tolerance_not_met(summary); !text.empty()) out += "  " + text + '\n';
   for (const LobesSummary& lobes : summary.lobes) {
     if (!lobes.at_case_speed) continue;
     const CaseSpeedSummary& row = *lobes.at_case_speed;

@@ -62,6 +62,10 @@ double usual_tolerance(const Part& part) {
   return kind(part) == ShapeKind::surface ? 1e-2 : 1e-3;
 }
 
+std::optional<double> usual_time_budget(const Part& part) {
+  return kind(part) == ShapeKind::surface ? std::optional(30.0) : std::nullopt;
+}
+
 bool may_be_held(const Part& part) {
   return !part.supports.empty() || !part.clamps.empty() || !part.springs.empty() || kind(part) == ShapeKind::matrices;
 }

@@ -34,6 +34,7 @@ struct MeshOptions {
   std::optional<double> grading;             ///< growth of the size away from the named points
   std::optional<double> point_element_size;  ///< m, near the named points
   double time_limit = 120.0;                 ///< s
+  std::optional<double> time_budget;         ///< s, for refinement; none: not bounded
   double memory_limit = 4e9;                 ///< bytes
 };
 
@@ -155,6 +156,10 @@ struct Part {
 
 /// part.mesh.tolerance where the case does not give it: 0.01 of a surface from a file, 0.001 of other parts.
 [[nodiscard]] double usual_tolerance(const Part& part);
+
+/// The time after which a part is refined no further unless the case says otherwise, s: 30 for a surface of a file,
+/// whose mesh and cost nobody knows beforehand; none for others.
+[[nodiscard]] std::optional<double> usual_time_budget(const Part& part);
 
 /// True if something holds the part, as far as the case tells: matrices may be those of a held part.
 [[nodiscard]] bool may_be_held(const Part& part);

@@ -36,9 +36,10 @@ namespace thinwall::study {
 namespace {
 
 /// Mesh, fits of the part, the part itself. Parameters that were fitted are put into `work`.
-void compute_part_of(const setup::Variation& variation, setup::VariedSetup& work, Results& results, Stages& stages) {
+void compute_part_of(const setup::Variation& variation, setup::VariedSetup& work, const RunOptions& options,
+                     Results& results, Stages& stages) {
   stages.begin(work.setup.part->mesh.element_size ? "mesh" : "mesh, order and modes");
-  Discretisation discretisation = discretise(part_input(work.setup));
+  Discretisation discretisation = discretise(part_input(work.setup), options.first_mesh);
   const mesh::TetMesh& mesh = discretisation.mesh;
   const Eigen::Vector3d meshed_size = setup::box_size(*work.setup.part);
   core::inform(fmt::format("{} tetrahedra, {} vertices, order {}", mesh.tets.size(), mesh.vertices.size(),
@@ -60,11 +61,11 @@ void compute_part_of(const setup::Variation& variation, setup::VariedSetup& work
 }
 
 /// The part of an earlier run of the same input, or computed now.
-void run_part(const setup::Variation& variation, setup::VariedSetup& work, Checkpoint& kept, Results& results,
-              Stages& stages) {
+void run_part(const setup::Variation& variation, setup::VariedSetup& work, const RunOptions& options, Checkpoint& kept,
+              Results& results, Stages& stages) {
   stages.begin("kept results");
   part_of_checkpoint(kept, variation, work, results,
-                     [&](setup::VariedSetup& w, Results& r) { compute_part_of(variation, w, r, stages); });
+                     [&](setup::VariedSetup& w, Results& r) { compute_part_of(variation, w, options, r, stages); });
   PartResult& part = *results.finite_elements;
   if (part.reduced && !part.damped) part.damped = damped(work.setup.damping, part.reduced->model, part.identified);
 }
@@ -370,7 +371,7 @@ Results run(const setup::Setup& setup, const setup::Variation& variation, Kept& 
   setup::VariedSetup work{setup, {}};
   run_identification(kept, work.setup, stages);
   const setup::Variation varied = identified_variation(variation, work.setup);
-  if (work.setup.part) run_part(varied, work, kept.part, results, stages);
+  if (work.setup.part) run_part(varied, work, options, kept.part, results, stages);
   if (results.finite_elements && results.finite_elements->reduced)
     run_coupled_updating(varied, work, kept.structure, results, stages);
   if (results.finite_elements) bound_modes(*results.finite_elements, work.setup);

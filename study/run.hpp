@@ -2,9 +2,11 @@
 // The whole workflow: from a machining set-up to everything that can be computed of it.
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "fem/closed_part.hpp"
 #include "milling/chart/operating_point.hpp"
 #include "setup/variation.hpp"
 #include "study/kept/checkpoint.hpp"
@@ -15,9 +17,10 @@ namespace thinwall::study {
 
 /// Options of a run.
 struct RunOptions {
-  std::vector<milling::OperatingPoint> points = {};  ///< that every chart is asked about, and that a simulation takes
-                                                     ///< which names none
-  StageListener on_stage = {};                       ///< hears of each stage as it begins and ends
+  std::vector<milling::OperatingPoint> points = {};    ///< that every chart is asked about, and that a simulation takes
+                                                       ///< which names none
+  StageListener on_stage = {};                         ///< hears of each stage as it begins and ends
+  std::shared_ptr<const fem::FirstMesh> first_mesh{};  ///< of the part, as first_mesh() makes it; empty: it is made
 };
 
 /// Results of an earlier run of the same inputs, which are taken instead of being computed, and to which new ones are

@@ -28,6 +28,8 @@ def add_command(commands):
     parser.add_argument("--threads", type=fem.positive(int), default=2, metavar="N")
     parser.add_argument("--tolerance", type=fem.positive(float), default=0.01, metavar="X",
                         help="part.mesh.tolerance (0.01)")
+    parser.add_argument("--time-budget", type=fem.positive(float), metavar="S",
+                        help="part.mesh.time_budget (the program's own); on a busy machine give more, for it is wall time")
     parser.add_argument("--unit", default="mm", metavar="UNIT",
                         help="of files that do not tell it (mm); NAME.inch.ENDING is in inches")
     parser.add_argument("--reference", type=pathlib.Path, metavar="DIR",

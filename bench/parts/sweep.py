@@ -29,14 +29,16 @@ def unit_of(path, given):
     return "inch" if ".inch." in path.name else given
 
 
-def case_text(path, unit, tolerance):
+def case_text(path, unit, tolerance, time_budget=None):
     """A free part of aluminium, twelve elastic modes."""
     lines = ["[part]", f"file = {json.dumps(str(path))}"]
     if unit:
         lines.append(f'unit = "{unit}"')
     lines += ["[part.material]", f'youngs_modulus = "{YOUNG_PA:g} Pa"', f"poisson_ratio = {POISSON:g}",
-              f'density = "{DENSITY_KG_M3:g} kg/m^3"', "[part.mesh]", f"tolerance = {tolerance!r}", "[modes]",
-              f"count = {MODES}"]
+              f'density = "{DENSITY_KG_M3:g} kg/m^3"', "[part.mesh]", f"tolerance = {tolerance!r}"]
+    if time_budget:
+        lines.append(f'time_budget = "{time_budget:g} s"')
+    lines += ["[modes]", f"count = {MODES}"]
     return "\n".join([*lines, ""])
 
 
@@ -51,7 +53,8 @@ def row_of(path, settings, folder):
     """Runs the program on a file in a folder of its own, which is made anew."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    (folder / "case.toml").write_text(case_text(path.resolve(), unit_of(path, settings.unit), settings.tolerance))
+    (folder / "case.toml").write_text(case_text(path.resolve(), unit_of(path, settings.unit), settings.tolerance,
+                                                  settings.time_budget))
     command = [settings.program.resolve(), "run", "case.toml", "--out", "results", "--threads", settings.threads]
     done = processes.run(limited(command, settings), settings.time, folder, processes.environment(),
                          settings.processor_time)

@@ -146,6 +146,8 @@ void check_mesh_size(const Case& source, Findings& findings) {
     findings.report("part.mesh.tolerance", "a surface from a file is followed to 0.001 at best; take that or more");
   if (mesh.element_size && mesh.tolerance != setup::usual_tolerance(*source.part))
     findings.report("part.mesh.tolerance", "nothing is estimated with a given element_size; remove one of the two");
+  if (mesh.element_size && mesh.time_budget != setup::usual_time_budget(*source.part))
+    findings.report("part.mesh.time_budget", "nothing is refined with a given element_size; remove one of the two");
   if (setup::kind(*source.part) == setup::ShapeKind::surface) check_surface_size(source, findings);
   if (!by_tetgen(*source.part)) return;
   const int order_now = mesh.order.value_or(2);

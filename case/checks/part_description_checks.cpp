@@ -144,6 +144,8 @@ void check_given_mesh(const Case& source, Findings& findings) {
                                                                  : part.mesh.element_size.has_value();
     if (other) findings.report(key, "the mesh is given; part.mesh.order alone can make it better; remove this key");
   }
+  if (part.mesh.time_budget)
+    findings.report("part.mesh.time_budget", "the mesh is given and not refined; remove this key");
   if (solid == nullptr || !part.mesh.order) return;
   if (*part.mesh.order < solid->nodes.order)
     findings.report("part.mesh.order",

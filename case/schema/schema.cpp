@@ -62,6 +62,7 @@ constexpr Key case_keys[] = {
     Key{"part.mesh.grading", Type::quantity, kind::number, "", {1.0, 10.0, false, false, false, "1 keeps the size at the points, 1.5 lets it grow"}, "", "Growth of the element size away from the named points, with `point_element_size`; 1.5 if not given."},
     Key{"part.mesh.point_element_size", Type::quantity, kind::length, "", positive, "", "Element size near the named points."},
     Key{"part.mesh.time_limit", Type::quantity, kind::time, "\"120 s\"", {0.1, 1e7, false, false, false, "a part of usual size takes seconds"}, "", "Time after which the mesher is stopped."},
+    Key{"part.mesh.time_budget", Type::quantity, kind::time, "", {0.1, 1e7, false, false, false, "the first answer comes in any case"}, "", "With `element_size = \"auto\"`: time for the part; four fifths of it are for meshes and solutions. A solution that would take longer is given up, and the best one before it is the result, with its estimate; 30 s of a surface from a file if not given, else unbounded."},
     Key{"part.mesh.memory_limit", Type::quantity, kind::memory, "\"4 GB\"", {1e7, 1e15, false, false, false, "a memory needs its unit: \"4 GB\""}, "", "Memory at which the mesher is stopped."},
     Key{"part.supports[].on", Type::name, kind::number, "", any, "", "A face of the box around the part, `x_min` … `z_max`, a selection, or a set of nodes of the mesh.", required},
     Key{"part.supports[].fixed", Type::names, kind::number, "[\"x\", \"y\", \"z\"]", any, "x|y|z", "Directions held at zero."},

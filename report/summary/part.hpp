@@ -69,7 +69,7 @@ struct MeshEstimateSummary {
   std::optional<double> tolerance;
   bool met = false;
   double max_relative_frequency_error = 0.0, max_relative_receptance_error = 0.0, max_relative_entry_error = 0.0;
-  std::string worst_receptance;
+  std::string worst_receptance, held_back_by;
   std::vector<EstimateStepSummary> steps;
 };
 
@@ -90,6 +90,9 @@ void fields(Visitor& visit, Section& estimate) {
         estimate.max_relative_entry_error);
   visit(Field{"worst_receptance", Kind::text, "name of the receptance of that error: P.x, or P.x to Q.z"},
         estimate.worst_receptance);
+  visit(Field{"held_back_by", Kind::text,
+              "what ended the refinement before the tolerance was met; empty: it was met, or all levels were used"},
+        estimate.held_back_by);
   visit(Field{"steps", Kind::section, "meshes that were compared"}, estimate.steps);
 }
 

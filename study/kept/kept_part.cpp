@@ -60,7 +60,7 @@ void serialize(Archive& archive, RefinementStep& s) {
 }
 template <class Archive>
 void serialize(Archive& archive, Estimate& e) {
-  archive(e.frequency, e.receptance, e.entry, e.worst_receptance, e.tolerance, e.met, e.held_back, e.within_reach,
+  archive(e.frequency, e.receptance, e.entry, e.worst_receptance, e.tolerance, e.met, e.held_back_by, e.within_reach,
           e.steps);
 }
 }  // namespace fem

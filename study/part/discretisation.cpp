@@ -7,7 +7,6 @@
 #include <limits>
 #include <numbers>
 
-#include "core/memory.hpp"
 #include "core/messages.hpp"
 #include "fem/closed_part.hpp"
 #include "mesh/planar/bend.hpp"
@@ -68,15 +67,16 @@ mesh::TetMesh surface_mesh(const setup::PartSetup& source) {
   return std::move(meshed.mesh);
 }
 
-void log_steps(const fem::Estimate& estimate) {
-  for (const auto& step : estimate.steps) {
-    std::string text = fmt::format("level {}, order {}: {} degrees of freedom", step.level, step.order, step.dofs);
-    if (step.frequency_change) text += fmt::format(", frequencies changed by {:.2e}", *step.frequency_change);
-    if (step.receptance_change)
-      text += fmt::format(", receptances by {:.2e} ({} by {:.2e} of itself)", *step.receptance_change,
-                          step.worst_receptance, *step.entry_change);
-    core::inform(text);
-  }
+void log_step(const fem::RefinementStep& step) {
+  std::string text = fmt::format("level {}, order {}: {} degrees of freedom", step.level, step.order, step.dofs);
+  if (step.frequency_change) text += fmt::format(", frequencies changed by {:.2e}", *step.frequency_change);
+  if (step.receptance_change)
+    text += fmt::format(", receptances by {:.2e} ({} by {:.2e} of itself)", *step.receptance_change,
+                        step.worst_receptance, *step.entry_change);
+  core::inform(text);
+}
+
+void warn_if_not_met(const fem::Estimate& estimate) {
   if (estimate.met) return;
   const std::string reached = fmt::format("frequencies are right to about {:.1e}, receptances to {:.1e}",
                                           estimate.frequency, estimate.receptance);
@@ -88,7 +88,7 @@ void log_steps(const fem::Estimate& estimate) {
     return;
   }
   core::warn(fmt::format("the tolerance of {} was not met{}: {}", estimate.tolerance,
-                         estimate.held_back ? ", for the next model would be too large" : "", reached));
+                         estimate.held_back_by.empty() ? "" : ", for " + estimate.held_back_by, reached));
 }
 
 /// Says what spheres of another material cost; returns their share of the part.
@@ -110,7 +110,7 @@ void add_misplaced(double share, fem::Estimate& estimate) {
 
 Discretisation discretised(const setup::PartSetup& source, fem::Refined refined) {
   add_misplaced(warn_of_misplaced(source, refined.model.mesh), refined.estimate);
-  log_steps(refined.estimate);
+  warn_if_not_met(refined.estimate);
   Discretisation result{refined.model.mesh, refined.model.nodes.order, refined.estimate, {}};
   result.solved.emplace(Solution{std::move(refined.model), std::move(refined.factored), std::move(refined.modes)});
   return result;
@@ -119,6 +119,13 @@ Discretisation discretised(const setup::PartSetup& source, fem::Refined refined)
 std::function<fem::Materials(const mesh::TetMesh&)> several_materials(const setup::PartSetup& source) {
   if (source.part->materials.empty()) return {};
   return [&source](const mesh::TetMesh& mesh) { return setup::materials_on(source, mesh); };
+}
+
+/// The share of part.mesh.time_budget in which meshes and solutions must be found; the rest is for checks and results.
+constexpr double share_of_solutions = 0.8;
+
+double budget_of_solutions_s(const setup::Part& part) {
+  return share_of_solutions * part.mesh.time_budget.value_or(0.0);
 }
 
 /// The options by which the closed surface of a file is solved.
@@ -134,7 +141,8 @@ fem::ClosedPartOptions closed_part_options(const PartInput& source) {
   options.materials = several_materials(source);
   options.divided = [&source](mesh::TetMesh mesh) { return setup::cut_at_materials(source, std::move(mesh)); };
   options.levels = 2;
-  options.memory_limit_bytes = core::available_memory_bytes();
+  options.time_budget_s = budget_of_solutions_s(*source.part);
+  options.solved = log_step;
   options.limits = {wanted.time_limit, wanted.memory_limit};
   if (wanted.order) {
     options.last_order = std::max(2, *wanted.order);
@@ -144,8 +152,9 @@ fem::ClosedPartOptions closed_part_options(const PartInput& source) {
 }
 
 /// The closed surface of a file, by its walls.
-Discretisation refined_surface(const PartInput& source) {
-  const fem::ClosedPartOptions options = closed_part_options(source);
+Discretisation refined_surface(const PartInput& source, std::shared_ptr<const fem::FirstMesh> first) {
+  fem::ClosedPartOptions options = closed_part_options(source);
+  options.first = std::move(first);
   fem::ClosedPart part =
       fem::refine_closed_part(source.part->imported->surface->surface, setup::material_of(*source.part), options);
   for (const auto& fit : part.fits) {
@@ -161,9 +170,9 @@ Discretisation refined_surface(const PartInput& source) {
   return discretised(source, std::move(part.refined));
 }
 
-Discretisation refined_to_tolerance(const PartInput& source) {
+Discretisation refined_to_tolerance(const PartInput& source, std::shared_ptr<const fem::FirstMesh> first) {
   for (const std::string& warning : setup::unreachable_tolerances(source)) core::warn(warning);
-  if (setup::kind(*source.part) == setup::ShapeKind::surface) return refined_surface(source);
+  if (setup::kind(*source.part) == setup::ShapeKind::surface) return refined_surface(source, std::move(first));
   const setup::MeshOptions& wanted = source.part->mesh;
   fem::SolidPart part{[&](int level) { return setup::cut_at_materials(source, setup::graded_mesh(source, level)); },
                       setup::shaping(*source.part),
@@ -174,7 +183,8 @@ Discretisation refined_to_tolerance(const PartInput& source) {
   fem::ToleranceOptions options;
   options.tolerance = wanted.tolerance;
   options.modes = setup::mode_options(source);
-  options.memory_limit_bytes = core::available_memory_bytes();
+  options.time_budget_s = budget_of_solutions_s(*source.part);
+  options.solved = log_step;
   options.reentrant_edges = mesh::has_reentrant_edge(setup::planar(*source.part).prism);
   if (options.reentrant_edges) options.levels = 2;  // more bring little: across a rib one element remains
   options.points = watched_points(source);
@@ -192,7 +202,14 @@ mesh::TetMesh coarsest_mesh(const PartInput& source) {
   const setup::Part& part = *source.part;
   if (setup::kind(part) == setup::ShapeKind::mesh) return part.imported->mesh->solid.mesh;
   if (part.mesh.element_size) return setup::cut_at_materials(source, surface_mesh(source));
-  return fem::coarsest_mesh(part.imported->surface->surface, closed_part_options(source));
+  return fem::first_mesh(part.imported->surface->surface, closed_part_options(source)).mesh;
+}
+
+std::shared_ptr<const fem::FirstMesh> first_mesh(const PartInput& source) {
+  const setup::Part& part = *source.part;
+  if (setup::kind(part) != setup::ShapeKind::surface || part.mesh.element_size) return {};
+  return std::make_shared<fem::FirstMesh>(
+      fem::first_mesh(part.imported->surface->surface, closed_part_options(source)));
 }
 
 bool is_solved_one_order_higher(const setup::Part& part, int order) {
@@ -211,7 +228,7 @@ std::vector<fem::NamedPoint> watched_points(const PartInput& source) {
   return points;
 }
 
-Discretisation discretise(const PartInput& source) {
+Discretisation discretise(const PartInput& source, std::shared_ptr<const fem::FirstMesh> first) {
   const setup::Part& part = *source.part;
   if (setup::kind(part) == setup::ShapeKind::matrices) {
     Discretisation result;
@@ -228,7 +245,7 @@ Discretisation discretise(const PartInput& source) {
         fmt::format("the part is {:g} m thick, more than it is long or high; a number without a unit is in metres",
                     box->thickness));
   }
-  if (!part.mesh.element_size) return refined_to_tolerance(source);
+  if (!part.mesh.element_size) return refined_to_tolerance(source, std::move(first));
   const int order = part.mesh.order.value_or(2);
   mesh::TetMesh mesh = setup::kind(part) == setup::ShapeKind::surface ? surface_mesh(source)
                        : box != nullptr && !box->bend                 ? tetgen_mesh(source)

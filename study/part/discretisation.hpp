@@ -2,10 +2,12 @@
 // From the part of a case to its mesh, its order, and where the nodes lie.
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "fem/closed_part.hpp"
 #include "fem/to_tolerance.hpp"
 #include "mesh/planar/bend.hpp"
 #include "mesh/selection.hpp"
@@ -29,6 +31,10 @@ struct Discretisation {
 /// tenths of a second, seconds for a curved surface, and minutes for one that no mesher can fill.
 [[nodiscard]] mesh::TetMesh coarsest_mesh(const PartInput& source);
 
+/// The first mesh of a part of a file's closed surface that is solved to a tolerance, for discretise(); empty for other
+/// parts. Errors and cost as coarsest_mesh().
+[[nodiscard]] std::shared_ptr<const fem::FirstMesh> first_mesh(const PartInput& source);
+
 /// True if a part's mesh is that of a file, which is solved by one order more, too, for its error; not above order 5.
 [[nodiscard]] bool is_solved_one_order_higher(const setup::Part& part, int order);
 
@@ -36,7 +42,8 @@ struct Discretisation {
 /// path.
 [[nodiscard]] std::vector<fem::NamedPoint> watched_points(const PartInput& source);
 
-/// Mesh and order: from the tolerance (fem::refine_to_tolerance), or as the case gives them.
-[[nodiscard]] Discretisation discretise(const PartInput& source);
+/// Mesh and order: from the tolerance (fem::refine_to_tolerance), or as the case gives them. `first`: what first_mesh()
+/// has made of the same input, or empty.
+[[nodiscard]] Discretisation discretise(const PartInput& source, std::shared_ptr<const fem::FirstMesh> first = {});
 
 }  // namespace thinwall::study

@@ -60,11 +60,11 @@ void require_faces(const PartInput& source, const mesh::TetMesh& mesh) {
 
 }  // namespace
 
-std::optional<setup::PartSize> forecast(const PartInput& source) {
+std::optional<setup::PartSize> forecast(const PartInput& source, const std::shared_ptr<const fem::FirstMesh>& first) {
   const setup::Part& part = *source.part;
   const setup::ShapeKind kind = setup::kind(part);
   if (kind != setup::ShapeKind::surface && kind != setup::ShapeKind::mesh) return {};
-  const mesh::TetMesh mesh = coarsest_mesh(source);
+  const mesh::TetMesh mesh = first ? first->mesh : coarsest_mesh(source);
   require_faces(source, mesh);
   setup::PartSize result;
   result.elements = static_cast<double>(mesh.tets.size());

@@ -1,8 +1,10 @@
 #pragma once
 // Findings of a run about its part, and the time that it takes, before anything is solved.
 
+#include <memory>
 #include <optional>
 
+#include "fem/closed_part.hpp"
 #include "setup/part_size.hpp"
 #include "study/part/part_input.hpp"
 
@@ -16,7 +18,9 @@ namespace thinwall::study {
 /// two orders, and a quarter of the second level. A mesh of a file is solved once more, of one order more, for its
 /// error. A part that takes all orders may take seven times as long as is said. Throws what coarsest_mesh() throws, and
 /// InputError for a support or clamp that holds no face.
-[[nodiscard]] std::optional<setup::PartSize> forecast(const PartInput& source);
+/// `first`: what first_mesh() has made of the same input, or empty: it is made.
+[[nodiscard]] std::optional<setup::PartSize> forecast(const PartInput& source,
+                                                      const std::shared_ptr<const fem::FirstMesh>& first = {});
 
 /// Throws InputError unless the points of the reduction determine the six rigid motions of a part that nothing holds:
 /// the rank of the motions [d, (p − c) × d / s] of the points' directions d at their places p, with c and s centre and

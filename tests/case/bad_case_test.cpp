@@ -420,6 +420,7 @@ TEST(BadPrism, TheGoodOneHasNoProblemAndIsBoundAsWritten) {
   EXPECT_TRUE(bounds(*c.part).max().isApprox(Eigen::Vector3d(0.1, 0.06, 0.006)));
   EXPECT_FALSE(c.part->mesh.element_size.has_value());
   EXPECT_DOUBLE_EQ(c.part->mesh.tolerance, 1e-3);
+  EXPECT_FALSE(c.part->mesh.time_budget.has_value());
 }
 
 TEST(BadPrism, GeometryThatIsNoPartIsRefusedWithItsPlace) {
@@ -440,6 +441,8 @@ TEST(BadMesh, ToleranceAndSizeOutOfRangeOrAtOddsAreRefused) {
   expect_problem("element_size = \"12 mm\"", "tolerance = 0.5", "part.mesh.tolerance");
   expect_problem("element_size = \"12 mm\"", "tolerance = 1e-9", "part.mesh.tolerance");
   expect_problem("element_size = \"12 mm\"", "element_size = \"12 mm\"\ntolerance = 0.01", "nothing is estimated");
+  expect_problem("element_size = \"12 mm\"", "element_size = \"12 mm\"\ntime_budget = \"9 s\"", "nothing is refined");
+  expect_problem("element_size = \"12 mm\"", "time_budget = \"0 s\"", "part.mesh.time_budget");
   expect_problem("element_size = \"12 mm\"", "element_size = \"automatic\"", "auto");
   expect_problem("element_size = \"12 mm\"", "element_size = \"-1 mm\"", "above 0");
   expect_problem("element_size = \"12 mm\"", "quality = 1.2", "belongs to boxes with a given element_size");

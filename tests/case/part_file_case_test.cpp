@@ -68,6 +68,10 @@ TEST(PartFile, ASurfaceIsReadInItsUnitAndPlaced) {
   const Case plain = parse_case(surface_case("file = \"plate.stl\"\nunit = \"mm\""), folder.path);
   ASSERT_TRUE(plain.part->imported);
   EXPECT_EQ(kind(*plain.part), ShapeKind::surface);
+  EXPECT_EQ(plain.part->mesh.time_budget, 30.0);
+  const Case slow =
+      parse_case(surface_case("file = \"plate.stl\"\nunit = \"mm\"\nmesh.time_budget = \"5 min\""), folder.path);
+  EXPECT_EQ(slow.part->mesh.time_budget, 300.0);
   EXPECT_LT((bounds(*plain.part).min() - Eigen::Vector3d::Constant(0.5)).norm(), 1e-7);
   EXPECT_LT((box_size(*plain.part) - Eigen::Vector3d(0.1, 0.06, 0.004)).norm(), 1e-7);
   const Case inch = parse_case(

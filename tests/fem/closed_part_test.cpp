@@ -56,7 +56,7 @@ TEST(ClosedPart, KeepsWithinTheBoundOnDegreesOfFreedomAndSaysSo) {
   ASSERT_GE(steps.size(), 3U) << "three orders at least";
   options.largest_dofs = steps[1].dofs + 1;
   const auto bounded = refine_closed_part(plate_surface(), steel, options);
-  EXPECT_TRUE(bounded.refined.estimate.held_back);
+  EXPECT_EQ(bounded.refined.estimate.held_back_by, "the next model would be too large");
   EXPECT_FALSE(bounded.met);
   EXPECT_EQ(bounded.refined.model.K.rows(), steps[1].dofs);
   EXPECT_GT(bounded.frequency_error, options.tolerance);
@@ -69,6 +69,31 @@ TEST(ClosedPart, KeepsWithinTheBoundOnDegreesOfFreedomAndSaysSo) {
               std::string::npos)
         << error.what();
   }
+}
+
+TEST(ClosedPart, AFirstMeshThatIsAtHandIsNotMadeAgain) {
+  ClosedPartOptions options;
+  options.supports = {{"foot", mesh::face_of(plate, "x_min"), {0, 1, 2}}};
+  const ClosedPart made = refine_closed_part(plate_surface(), steel, options);
+  FirstMesh first = first_mesh(plate_surface(), options);
+  EXPECT_EQ(first.fit.mesher, made.fits[0].mesher);
+  first.fit.mesher = "at hand";
+  options.first = std::make_shared<FirstMesh>(first);
+  const ClosedPart taken = refine_closed_part(plate_surface(), steel, options);
+  EXPECT_EQ(taken.fits[0].mesher, "at hand");
+  EXPECT_EQ(taken.refined.modes.frequency_hz, made.refined.modes.frequency_hz);
+}
+
+TEST(ClosedPart, TheErrorOfTheSurfaceIsThatOfTheLevelThatIsReturned) {
+  ClosedPartOptions options;
+  options.tolerance = 1e-3;
+  options.levels = 2;
+  options.time_budget_s = 1e-9;
+  const ClosedPart first = refine_closed_part(plate_surface(), steel, options);
+  EXPECT_EQ(first.refined.level, 0);
+  EXPECT_FALSE(first.met);
+  EXPECT_EQ(first.refined.estimate.steps.size(), 2U);
+  EXPECT_GE(first.frequency_error, first.refined.estimate.frequency);
 }
 
 TEST(ClosedPart, PointsThatDoNotSeeHowAFreePartMovesEndItBeforeItIsRefined) {

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/interrupt.hpp"
 #include "fem/modes.hpp"
 #include "fem/to_tolerance.hpp"
 #include "tests/mesh/kuhn_box.hpp"
@@ -259,6 +260,93 @@ TEST(Refinement, EndsWhereFurtherLevelsAreInVainAndNotWhereTheyReachTheTolerance
   const Refined reached = refine_to_tolerance(divided(meshed, [](int level) { return 1 << level; }), options);
   EXPECT_TRUE(reached.estimate.met);
   EXPECT_EQ(meshed, (std::vector<int>{0, 1, 2, 3}));
+}
+
+/// Options under which a cantilever of one cell across does not come to its tolerance in two orders.
+ToleranceOptions far_from_tolerance() {
+  ToleranceOptions options;
+  options.modes = modes_wanted(2);
+  options.first_order = 1;
+  options.last_order = 3;
+  options.tolerance = 1e-6;
+  return options;
+}
+
+TEST(Refinement, ReturnsWhatIsSolvedWhenItsTimeIsOver) {
+  std::vector<int> meshed;
+  std::vector<int> told;
+  ToleranceOptions options = far_from_tolerance();
+  options.time_budget_s = 1e-9;
+  options.solved = [&told](const RefinementStep& step) { told.push_back(step.order); };
+  const Refined first = refine_to_tolerance(divided(meshed, [](int) { return 1; }), options);
+  EXPECT_EQ(first.model.nodes.order, 2) << "the first answer and its estimate come in any case";
+  EXPECT_EQ(told, (std::vector<int>{1, 2}));
+  EXPECT_EQ(meshed, (std::vector<int>{0}));
+  EXPECT_FALSE(first.estimate.met);
+  EXPECT_GT(first.estimate.frequency, options.tolerance);
+  EXPECT_NE(first.estimate.held_back_by.find("1e-09 s for its solutions were over"), std::string::npos)
+      << first.estimate.held_back_by;
+  EXPECT_NO_THROW(core::check_interrupt()) << "the limit ends with the refinement";
+}
+
+TEST(Refinement, ReturnsWhatIsSolvedWhenALaterModelNeedsTooMuchMemory) {
+  std::vector<int> meshed;
+  ToleranceOptions options = far_from_tolerance();
+  const SolidPart part = divided(meshed, [](int) { return 2; });
+  const double second = factorise(supported_model(part.mesh(0), 2, steel, part.supports)).factor.statistics().bytes;
+  options.memory_limit_bytes = second;
+  options.levels = 1;
+  const Refined refined = refine_to_tolerance(part, options);
+  EXPECT_EQ(refined.model.nodes.order, 2);
+  EXPECT_FALSE(refined.estimate.met);
+  EXPECT_NE(refined.estimate.held_back_by.find("the next solution could not be had: "), std::string::npos)
+      << refined.estimate.held_back_by;
+  options.memory_limit_bytes = 0.5 * second;
+  EXPECT_THROW((void)refine_to_tolerance(part, options), linalg::MemoryLimitError) << "nothing is solved then";
+}
+
+TEST(Refinement, ReturnsWhatIsSolvedWhenAFinerMeshCannotBeMade) {
+  std::vector<int> meshed;
+  ToleranceOptions options = far_from_tolerance();
+  SolidPart part = divided(meshed, [](int) { return 1; });
+  part.mesh = [coarse = part.mesh](int level) {
+    if (level > 0) throw core::NumericalError("no mesher could fill it");
+    return coarse(level);
+  };
+  const Refined refined = refine_to_tolerance(part, options);
+  EXPECT_FALSE(refined.estimate.met);
+  EXPECT_NE(refined.estimate.held_back_by.find("no mesher could fill it"), std::string::npos);
+  EXPECT_EQ(refined.model.nodes.order, 3) << "the orders of the mesh at hand are left";
+}
+
+TEST(Refinement, ReturnsTheSolutionOfTheSmallerErrorNotTheLast) {
+  std::vector<int> meshed;
+  ToleranceOptions options = far_from_tolerance();
+  options.last_order = 2;
+  const auto finer_first = [](int level) { return level == 0 ? 4 : 1; };
+  const Refined refined = refine_to_tolerance(divided(meshed, finer_first), options);
+  ASSERT_EQ(meshed, (std::vector<int>{0, 1}));
+  EXPECT_EQ(refined.level, 0);
+  EXPECT_EQ(refined.model.K.rows(), refined.estimate.steps[1].dofs);
+}
+
+/// Beside a re-entrant edge orders 5 and 6 are cheaper than a finer mesh, whose unknowns are four times as many.
+TEST(Refinement, GoesThroughTheOrdersOfAMeshBeforeAFinerOneWhereTheyMaySuffice) {
+  std::vector<int> meshed;
+  ToleranceOptions options = far_from_tolerance();
+  options.reentrant_edges = true;
+  options.first_order = 3;
+  options.last_order = 6;
+  options.levels = 1;
+  const SolidPart part = divided(meshed, [](int) { return 1; });
+  const Refined sixth = refine_to_tolerance(part, options);
+  ASSERT_EQ(sixth.model.nodes.order, 6);
+  meshed.clear();
+  options.levels = 2;
+  options.tolerance = 1.01 * sixth.estimate.frequency;
+  const Refined refined = refine_to_tolerance(part, options);
+  EXPECT_TRUE(refined.estimate.met);
+  EXPECT_EQ(meshed, (std::vector<int>{0}));
 }
 
 TEST(RoundOff, OfTheLowestFrequencyIsWhatRoundingTheEntriesDoes) {

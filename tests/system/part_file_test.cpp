@@ -382,8 +382,13 @@ TEST(PartFile, APointOnACurvedSurfaceIsHeldToTheFileAndMovedToTheMesh) {
   EXPECT_EQ(text_of_run.find("NOT MET") == std::string::npos, estimate["met"].get<bool>()) << text_of_run;
   nlohmann::json missed = at_point;
   missed["mesh"]["error_estimate"]["met"] = !estimate["met"].get<bool>();
+  missed["mesh"]["error_estimate"]["held_back_by"] = "its time was over";
   EXPECT_EQ(terminal_report(summary_from(missed, "summary.json"), "results").find("NOT MET") == std::string::npos,
             !estimate["met"].get<bool>());
+  missed["mesh"]["error_estimate"]["met"] = false;
+  const std::string text_of_missed = terminal_report(summary_from(missed, "summary.json"), "results");
+  EXPECT_NE(text_of_missed.find("0.05 was asked for; its time was over"), std::string::npos) << text_of_missed;
+  EXPECT_LT(text_of_missed.find("the tolerance is not met"), text_of_missed.find("modes of the part"));
   EXPECT_TRUE(at_point["part"]["free_motions"].empty());
   EXPECT_EQ(text_of_run.find("rigid-body modes"), std::string::npos) << text_of_run;
   EXPECT_EQ(over_disc["status"], "ok");
