@@ -244,5 +244,15 @@ TEST(ArmMean, IsThatOfTheAnswersOnPostures) {
   EXPECT_THROW((void)study::study_postures(source, study::questions_on({"map"})), core::InputError);
 }
 
+/// A measured tool has no poles beside the robot's, whether it still awaits a fit or not.
+TEST(AnswersOnPostures, RefuseAMeasuredTool) {
+  Case source = FewPostures(7).at(test_postures.front(), "");
+  source.tool->measured.emplace_back();
+  for (const bool fit : {false, true}) {
+    source.tool->fit = fit;
+    EXPECT_THROW((void)study::study_postures(source, study::questions_on({"envelope"})), core::InputError) << fit;
+  }
+}
+
 }  // namespace
 }  // namespace thinwall::cases::arm_mean_test
