@@ -191,7 +191,8 @@ TEST(Kept, InterruptedChartsGoOn) {
   auto pieces = pieces_of(lobes);
   EXPECT_GT(added, 0U);
   EXPECT_EQ(pieces.size(), 2U * 3U + added + 2U * 1U + 2U * 1U + 2U * 24U)
-      << "of two charts by blocks of eight speeds, by added speeds and the case's own, their errors, and along the path "
+      << "of two charts by blocks of eight speeds, by added speeds and the case's own, their errors, and along the "
+         "path "
          "by speeds";
   fs::resize_file(lobes, bytes.size() * 4 / 5);
   (void)run_kept(text, folder);
