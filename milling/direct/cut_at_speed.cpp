@@ -91,6 +91,7 @@ GainOnCircle gain_of(const DiscreteCut& d) {
 
 double fastest_that_matters(const CutAtSpeed& cut, double stiffness, double depth_m) {
   const Eigen::ArrayXd gains = loop_gains(cut, stiffness, depth_m);
+  if (gains.size() == 0) return 0.0;  // all that yields is a static compliance
   return fastest_of(cut, gains, std::min(0.05 * gains.maxCoeff(), 0.5));
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <filesystem>
@@ -184,7 +185,8 @@ TEST(LearnedPostures, OfAVariationAreThoseOfItsPosture) {
   EXPECT_EQ(modes_of(variation.with({{"tool.diameter", 0.012}})), modes(source));
   const auto there = modes_of(variation.with({{"robot.at", 3.25}}));
   ASSERT_TRUE(there);
-  EXPECT_NEAR(there->rows.back().frequency_hz, ClosedForm::first_hz(3.25), 0.03);
+  EXPECT_NEAR(std::ranges::max(there->rows, {}, &dynamics::ModalTableRow::frequency_hz).frequency_hz,
+              ClosedForm::first_hz(3.25), 0.03);
 }
 
 TEST(LearnedPostures, OfTooFewPosturesLearnNothing) {

@@ -144,7 +144,8 @@ TEST(RobotCase, SeveralModesHoldInTheirDirectionsOnly) {
                  "missing; robot.model = \"modes\" needs it: Modes of the tip.");
   expect_problem(
       robot + "[robot.posture]\njoints = [0]\n", "robot.posture",
-      "belongs to robot.model = \"flexible_joints\", but it is \"modes\"; set robot.model, or remove posture");
+      "belongs to robot.model = \"modal_table\" or \"flexible_joints\", but it is \"modes\"; set robot.model, or "
+      "remove posture");
 }
 
 // A hammer along −x turns the sign of the receptance, which the file tells and the case need not.

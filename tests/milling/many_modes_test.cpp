@@ -51,5 +51,19 @@ TEST(ManyModes, NoRowOfAHelixIsEither) {
   expect_within_estimates(finishing(0.5), 12);
 }
 
+/// A structure whose modes all act by their static compliance has a row, too.
+TEST(ManyModes, NoneAtAllIsAStructure) {
+  RelativeStructure still;
+  still.poles.resize(0);
+  still.phi.resize(3, 0);
+  still.b.resize(3, 0);
+  still.R = 1e-9 * Eigen::Matrix3d::Identity();
+  for (const double helix_rad : {0.0, 0.5}) {
+    const LobeRow row = limiting_depth(still, finishing(helix_rad), 9000.0, {.depth_limit_m = 0.02});
+    EXPECT_TRUE(row.at_limit) << helix_rad;
+    EXPECT_TRUE(answers(row.status) || row.status == StabilityStatus::stable_to_depth_limit) << name(row.status);
+  }
+}
+
 }  // namespace
 }  // namespace thinwall::milling::many_modes_test
