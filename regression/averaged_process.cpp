@@ -95,7 +95,12 @@ AveragedProcess::AveragedProcess(const TaskData& data, const AveragingOptions& o
   const double places = static_cast<double>(data.places());
   const int samples = std::min(options.samples, std::max(12, static_cast<int>(1500.0 / places)));
   std::mt19937 random(options.seed);
+  const int most_sweeps = first_sweeps + 10 * sweeps_between * samples;
   for (int sweep = 0; static_cast<int>(draws_.size()) < samples; ++sweep) {
+    if (sweep == most_sweeps)
+      throw core::NumericalError(
+          "averaged process: the covariances that were drawn are not positive definite; two "
+          "places may be nearly the same");
     for (Eigen::Index k = 0; k < theta.size(); ++k) slice(posterior, theta, k, value, random);
     if (sweep < first_sweeps || (sweep - first_sweeps) % sweeps_between != 0) continue;
     auto drawn = dense_process(options.kernel, scaled.data, unpacked(theta, data.inputs.cols(), 1));

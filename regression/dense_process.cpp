@@ -49,7 +49,8 @@ std::optional<DenseProcess> dense_process(Kernel kernel, const TaskData& data, c
     K(b, b) += noise * noise + jitter;
   }
   process.K.compute(K);
-  if (process.K.info() != Eigen::Success || !process.K.matrixLLT().allFinite()) return std::nullopt;
+  // The triangle above the diagonal is not set; a number that is not finite below it has reached the diagonal.
+  if (process.K.info() != Eigen::Success || !process.K.matrixLLT().diagonal().allFinite()) return std::nullopt;
   process.alpha = process.K.solve(process.y);
   return process;
 }
