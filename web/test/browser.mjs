@@ -34,7 +34,7 @@ const noise = (text) => /GPU stall due to ReadPixels|Automatic fallback to softw
 export const drawn = (page) => page.waitForFunction(() => [...document.querySelectorAll('.plot')].every((p) => p.data || p.closest('details:not([open])')));
 
 /** Traces of a plot as plain values: [{ name, meta, x, y }]. */
-export const traces = (page, id) => page.evaluate((name) => document.getElementById(name).data.map((t) => ({ name: t.name, meta: t.meta, x: Array.from(t.x), y: Array.from(t.y), line: t.line })), `plot-${id}`);
+export const traces = (page, id) => page.evaluate((name) => document.getElementById(name).data.map((t) => ({ name: t.name, meta: t.meta, x: Array.from(t.x), y: Array.from(t.y), line: t.line, fill: t.fill })), `plot-${id}`);
 
 /** A hash of the picture's pixels, and how many colours it has. */
 export const pixels = (page) => page.evaluate(() => {
