@@ -251,6 +251,7 @@ PassiveFit made_passive(const ModalFit& fit, const MeasuredLines& measured, cons
   for (int step = 0;; ++step) {
     core::check_interrupt();
     std::vector<Peak> all;
+    all.reserve(lines.size());
     for (const double hz : lines) all.push_back(peak_at(result.fit, hz, points));
     result.change.after = excess_of(all);
     if (step == 0) result.change.before = result.change.after;

@@ -25,6 +25,7 @@ double widest_gap_hz(const std::vector<FittedMode>& modes) {
   if (modes.size() < 2)
     throw core::InputError("low and high modes of " + std::to_string(modes.size()) + ", must be at least 2");
   std::vector<double> ln_hz;
+  ln_hz.reserve(modes.size());
   for (const FittedMode& mode : modes) ln_hz.push_back(std::log(mode.frequency_hz));
   std::ranges::sort(ln_hz);
   std::size_t widest = 1;
