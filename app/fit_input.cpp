@@ -86,7 +86,7 @@ dynamics::DofTable dofs_of(const std::string& list, const std::string& option) {
     try {
       dofs.push_back(setup::dof_of(word));
     } catch (const core::InputError& error) {
-      throw core::UsageError(option + " \"" + list + "\": " + error.what());
+      throw core::UsageError(fmt::format("{} \"{}\": {}", option, list, error.what()));
     }
   }
   return dofs;
