@@ -51,7 +51,7 @@ struct ClosedPartOptions {
   double memory_limit_bytes = 0.0;     ///< limit for a factor; 0: the memory that is left
   double time_budget_s = 0.0;          ///< as in ToleranceOptions
   std::function<void(const RefinementStep&)> solved{};  ///< as in ToleranceOptions
-  /// What first_mesh() has made of this surface by these options, which is not made again then; or empty.
+  /// The mesh that first_mesh() has made of this surface by these options, which is then not made again; or empty.
   std::shared_ptr<const FirstMesh> first{};
   /// Limits of each attempt of a mesher. The time is short because TetGen either ends within seconds or not at all.
   mesh::ProcessLimits limits{.time_s = 20.0, .memory_bytes = 4e9};

@@ -67,8 +67,8 @@ struct Estimate {
   std::string worst_receptance{};  ///< name of the receptance of that error, "P.x" or "P.x to Q.z"
   double tolerance = 0.0;          ///< 0: none was asked for
   bool met = false;                ///< false if all levels were used, or the refinement was held back
-  /// What ended the refinement before the tolerance was met or all levels were used, as the end of a sentence: "the
-  /// time_budget of 24 s was over"; otherwise empty.
+  /// The reason that ended the refinement before the tolerance was met or all levels were used, as the end of a
+  /// sentence: "the time_budget of 24 s was over"; otherwise empty.
   std::string held_back_by{};
   /// The error to which all levels would have come at best, where the refinement was ended because that is more than
   /// twice the tolerance; otherwise 0.

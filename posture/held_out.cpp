@@ -27,7 +27,7 @@ Eigen::VectorXd noise_of(const Predictor::Covariances& covariances, const std::v
   return Eigen::Map<const Eigen::VectorXd>(covariances.noise[row].data(), std::ssize(covariances.noise[row]));
 }
 
-/// What is expected of the modes that the posture has.
+/// The expected modes, of those that the posture has.
 void predict_modes(const Predictor& predictor, const PosturePrediction& at, const TappedPosture& posture,
                    std::size_t number, std::vector<HeldOutMode>& modes) {
   const Predictor::Covariances covariances = predictor.covariances(posture.place.at.transpose());

@@ -139,7 +139,7 @@ std::vector<Eigen::VectorXd> starts_of(const TaskData& data, const SearchOptions
   return starts;
 }
 
-/// Where the searches from all starts end. Those that ended worse than the best, and one at least, search on by the
+/// The ends of the searches from all starts. Those that ended worse than the best, and one at least, search on by the
 /// second algorithm, of which a step costs the cube of the number of parameters.
 std::vector<Search> searches_from(const std::vector<Eigen::VectorXd>& starts, const TaskData& data,
                                   const SearchOptions& options, const Box& box) {

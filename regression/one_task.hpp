@@ -8,7 +8,7 @@
 
 namespace thinwall::regression {
 
-/// What of the data the likelihood needs at any hyper-parameters.
+/// The part of the data that the likelihood needs, whatever the hyper-parameters.
 struct OneTask {
   Kernel kernel = Kernel::squared_exponential;
   std::vector<Eigen::ArrayXXd> squares{};  ///< of the differences along each column, of the places with a value

@@ -21,9 +21,10 @@ struct DepthRange {
 /// limiting_depth() for `structure`, move (moved_depths_m()): those of other lobes are among them as far as they are
 /// within reach, so that a range that goes from one lobe into the next has both. Draws that are stable up to the depth
 /// limit count with it; a row without a crossing up to there is searched to twice the limit, which tells of draws that
-/// have one. The ends are core::middle_95_percent() of the limits. None where a crossing is not found again, or where a
-/// cutter that is not straight is stable up to the limit. Draws and structure in part axes. Throws InputError as
-/// limiting_depth(). Cost: draws times that of a move, for one to four crossings.
+/// have one. The ends are core::middle_95_percent() of the limits. None where the first crossing is not found again (a
+/// further one that is not is left out), or where a cutter that is not straight is stable up to the limit. Draws and
+/// structure in part axes. Throws InputError as limiting_depth(). Cost: draws times that of a move, for one to four
+/// crossings.
 [[nodiscard]] std::optional<DepthRange> depth_range(const RelativeStructure& structure,
                                                     const std::vector<RelativeStructure>& draws,
                                                     const MillingProcess& process, const LobeRow& row,

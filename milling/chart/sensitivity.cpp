@@ -235,7 +235,7 @@ std::vector<double> moved_depths_m(const RelativeStructure& structure, const std
       continue;
     }
     const double of_reciprocal = 1.0 - follower.relative_change(follower.gain(turned) - Z);
-    if (std::isnan(of_reciprocal)) throw core::NumericalError("sensitivity: a depth without a derivative");
+    if (!std::isfinite(of_reciprocal)) throw core::NumericalError("sensitivity: a depth without a derivative");
     depths.push_back(of_reciprocal > 0.0 ? point.depth_m / of_reciprocal : INFINITY);
   }
   return depths;

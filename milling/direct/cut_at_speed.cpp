@@ -52,18 +52,18 @@ double fastest_of(const CutAtSpeed& cut, const Eigen::ArrayXd& figures, double l
   return fastest;
 }
 
+/// The phase of a wave through the longest stretch of a tooth in the cut, rad.
+double phase_in_cut(const CutAtSpeed& cut, double omega_rad_s, double depth_m) {
+  return omega_rad_s * longest_stretch_rad(cut.process, depth_m) * 30.0 / (std::numbers::pi * cut.spindle_speed_rpm);
+}
+
 /// The errors that a grid would have for each mode if it did not resolve it: a tooth that enters excites the mode,
 /// which swings for 1/|Re λ| of the stretch T in the cut; only this wave is missed, for motion that the teeth force at
 /// lower frequencies is smooth.
 Eigen::ArrayXd errors_if_unresolved(const CutAtSpeed& cut, double depth_m) {
-  const double T = longest_stretch_rad(cut.process, depth_m) * 30.0 / (std::numbers::pi * cut.spindle_speed_rpm);
+  const double T = phase_in_cut(cut, 1.0, depth_m);
   const Eigen::ArrayXd swings = 1.0 / (T * cut.structure.poles.real().cwiseAbs().array());
   return error_over_gain * swings.min(1.0) * loop_gains(cut, mean_stiffness(cut.process, depth_m), depth_m);
-}
-
-/// The phase of a wave through the longest stretch of a tooth in the cut, rad.
-double phase_in_cut(const CutAtSpeed& cut, double omega_rad_s, double depth_m) {
-  return omega_rad_s * longest_stretch_rad(cut.process, depth_m) * 30.0 / (std::numbers::pi * cut.spindle_speed_rpm);
 }
 
 }  // namespace

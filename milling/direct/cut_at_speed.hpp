@@ -46,7 +46,7 @@ struct DiscreteCut {
 /// rad a node: 0.005 g min(1, e^{10 (r − 1.4)}) of the one for which it is largest, g its loop gain times the share of
 /// the cut, 1 at most, in which it swings once it is excited. The distance of two grids that both miss a mode does not
 /// show it, as they may err alike: a wall with modes up to 51 kHz had 53 of 200 rows beyond their estimates, up to
-/// sixteenfold, errors of up to 0.004 of these gains, and a tenth of that at r = 1.2.
+/// sixteenfold, errors of up to 0.005 of the gains that were missed, and a tenth of that at r = 1.2.
 [[nodiscard]] double unresolved(const CutAtSpeed& cut, Resolution resolution, double depth_m);
 
 /// The coarsest grid on which unresolved() is below a quarter of the tolerance, in elements of at most 20 rad, but of

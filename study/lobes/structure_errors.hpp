@@ -36,7 +36,7 @@ struct StructureErrors {
 [[nodiscard]] StructureErrors sampled_structure_errors(const setup::CutSetup& source, const milling::ToolFrame& frame,
                                                        const Results& results);
 
-/// Of the limit of a row: truncation and noise of its first crossing, first order in both
+/// The errors of the limit of a row: truncation and noise of its first crossing, first order in both
 /// (milling/chart/sensitivity.hpp, milling/chart/sampled_uncertainty.hpp), and the range by draws of what was
 /// identified (milling/chart/depth_band.hpp). Where a crossing is not found again, or stands where its depth has no
 /// derivative, nothing is known. Errors as theirs otherwise.

@@ -106,7 +106,7 @@ double chosen_speed(const setup::Setup& source, const PostureQuestions& question
   return cut.spindle_speeds_rpm[static_cast<std::size_t>(best)];
 }
 
-/// What is learned, and what of it the answers do not know.
+/// Says what is learned, and what of it the answers do not know.
 void tell_learning(const LearnedRobot& learned, const PostureQuestions& questions, PostureStudy& study) {
   study.notes.push_back(fmt::format("{} modes are learned from {} postures{}", learned.predictor.labels().size(),
                                     study.names.size(), learned.learning.note));
