@@ -35,16 +35,11 @@ linalg::ComplexLu factored(const Eigen::MatrixXcd& Z, complex<double> nu) {
   return linalg::ComplexLu(std::move(shifted));
 }
 
-/// −lᵀ Z r / lᵀ r: an error ε of the vectors leaves one of ε² in ν.
-complex<double> rayleigh(const Eigenpair& pair, const Eigen::MatrixXcd& Z) {
-  return -(pair.left.transpose() * Z * pair.right).value() / (pair.left.transpose() * pair.right).value();
-}
-
 /// One inverse iteration on both sides. False if a vector overflows.
 bool improve(const Eigen::MatrixXcd& Z, const linalg::ComplexLu& lu, Eigenpair& pair) {
   pair.right = lu.solve(pair.right).normalized();
   pair.left = lu.solve_transposed(pair.left).normalized();
-  pair.nu = rayleigh(pair, Z);
+  pair.nu = rayleigh_quotient(pair, Z);
   return pair.right.allFinite() && pair.left.allFinite() && std::isfinite(std::abs(pair.nu));
 }
 
@@ -56,7 +51,7 @@ bool improve(const GainOnCircle& gain, double theta, int solves, Eigenpair& pair
   for (int i = 0; i < solves; ++i) {
     if (!improve(Z, lu, pair)) return false;
   }
-  pair.slope = rayleigh(pair, gain.slope(theta));
+  pair.slope = rayleigh_quotient(pair, gain.slope(theta));
   return std::isfinite(std::abs(pair.slope));
 }
 
@@ -68,28 +63,33 @@ core::NumericalError not_found() {
 
 }  // namespace
 
-Eigenpair eigenpair_near(const GainOnCircle& gain, double theta, complex<double> guess) {
+// An error ε of the vectors leaves one of ε² in ν.
+complex<double> rayleigh_quotient(const Eigenpair& pair, const Eigen::MatrixXcd& Z) {
+  return -(pair.left.transpose() * Z * pair.right).value() / (pair.left.transpose() * pair.right).value();
+}
+
+Eigenpair eigenpair_near(const GainOnCircle& gain, double theta, complex<double> guess, const Eigenpair* start) {
   // Near a crossing the guess is so good that one factorisation serves: each solve then gains the square of the ratio
   // of the distances from the guess to the eigenvalue and to the next one.
   constexpr int most_factorisations = 12, solves_of_each = 8;
   const Eigen::MatrixXcd Z = gain.Z(theta);
   Eigenpair pair = started_at(gain.size, guess);
+  if (start != nullptr && start->right.size() == gain.size) {
+    pair.right = start->right;
+    pair.left = start->left;
+  }
   complex<double> before = INFINITY;
   for (int factorisation = 0; factorisation < most_factorisations; ++factorisation) {
     const linalg::ComplexLu lu = factored(Z, pair.nu);
     for (int solve = 0; solve < solves_of_each; ++solve) {
       if (!improve(Z, lu, pair)) throw not_found();
       if (std::abs(std::exchange(before, pair.nu) - pair.nu) > 1e-12 * std::abs(pair.nu)) continue;
-      pair.slope = rayleigh(pair, gain.slope(theta));
+      pair.slope = rayleigh_quotient(pair, gain.slope(theta));
       if (!std::isfinite(std::abs(pair.slope))) throw not_found();
       return pair;
     }
   }
   throw not_found();
-}
-
-complex<double> first_order_change(const Eigenpair& pair, const Eigen::MatrixXcd& change_of_Z) {
-  return rayleigh(pair, change_of_Z);
 }
 
 bool to_axis(const GainOnCircle& gain, complex<double> nu, Crossing& crossing) {

@@ -32,13 +32,16 @@ struct Eigenpair {
   Eigen::VectorXcd right, left;
 };
 
-/// The eigenvalue nearest to a guess at a fixed angle, by inverse iterations on both sides. Throws NumericalError if
-/// they do not converge. Cost: a factorisation of the size of Z, more where the guess is no better than the distance to
-/// the next eigenvalue.
-[[nodiscard]] Eigenpair eigenpair_near(const GainOnCircle& gain, double theta_rad, std::complex<double> guess);
+/// The eigenvalue nearest to a guess at a fixed angle, by inverse iterations on both sides. They begin with the vectors
+/// of `start`, a pair of a gain or an angle near by with as many contacts, if there is one: its branch is followed
+/// then, with fewer solves. Throws NumericalError if they do not converge. Cost: a factorisation of the size of Z, more
+/// where the guess is no better than the distance to the next eigenvalue.
+[[nodiscard]] Eigenpair eigenpair_near(const GainOnCircle& gain, double theta_rad, std::complex<double> guess,
+                                       const Eigenpair* start = nullptr);
 
-/// The change of ν as Z changes to that of another gain of the same contacts, to first order: −lᵀ ΔZ r / lᵀ r.
-[[nodiscard]] std::complex<double> first_order_change(const Eigenpair& pair, const Eigen::MatrixXcd& change_of_Z);
+/// The eigenvalue −lᵀ Z r / lᵀ r that the vectors of a pair give of a gain near by with the same contacts: exact to
+/// first order in the change of Z.
+[[nodiscard]] std::complex<double> rayleigh_quotient(const Eigenpair& pair, const Eigen::MatrixXcd& Z);
 
 /// Brings a crossing to the axis: on the boundary det(I + w Z(e^{iθ})) = 0, so that 1/w is a real positive eigenvalue
 /// ν(θ) of −Z. With its vectors l and r on both sides, from inverse iterations,

@@ -25,32 +25,41 @@ Resolution finer_by(Resolution r, std::size_t levels) {
   return r;
 }
 
-/// The eigenvalue ν of −Z near 1/depth on a grid of this depth, with its change ∂ν/∂w as the depth shapes the cut.
-struct PairAtDepth {
-  Eigenpair pair;
-  complex<double> by_depth;
-};
-
-PairAtDepth pair_at(const CutAtSpeed& cut, Resolution resolution, double depth_m, double theta) {
-  const DiscreteCut d = discrete(cut, resolution, depth_m);
-  const GainOnCircle gain = gain_of(d);
-  PairAtDepth result{eigenpair_near(gain, theta, 1.0 / depth_m), INFINITY};
-  const Eigen::MatrixXcd Z = gain.Z(theta);
+/// ∂ν/∂w at a fixed angle as the depth shapes the cut, from a grid beside; `pair` is that of `gain`.
+complex<double> change_with_depth(const CutAtSpeed& cut, Resolution resolution, double depth_m, double theta,
+                                  const GainOnCircle& gain, const Eigenpair& pair) {
+  complex<double> least = INFINITY;
   // The eigenvalue ν jumps by the error of the grid where a stretch of the cut appears with the depth, so the
   // difference is one-sided there.
   const double above = std::min(1e-6 * depth_m, cut.process.cutter.envelope.height_m - depth_m);
   for (const double step_m : {-1e-6 * depth_m, above}) {
     // ν ~ 1/w changes with the depth by about 1/w². A hundred times as much is a jump, and the other side is tried.
-    if (step_m == 0.0 || std::abs(result.by_depth) * depth_m * depth_m < 100.0) continue;
+    if (step_m == 0.0 || std::abs(least) * depth_m * depth_m < 100.0) continue;
     const DiscreteCut beside = discrete(cut, resolution, depth_m + step_m);
     const GainOnCircle gain_beside = gain_of(beside);
     // With as many contacts the grid is the same but for the small step: another factorisation would tell no more.
-    const complex<double> change = gain_beside.size == gain.size
-                                       ? first_order_change(result.pair, gain_beside.Z(theta) - Z)
-                                       : eigenpair_near(gain_beside, theta, result.pair.nu).nu - result.pair.nu;
-    if (std::abs(change / step_m) < std::abs(result.by_depth)) result.by_depth = change / step_m;
+    const complex<double> nu = gain_beside.size == gain.size ? rayleigh_quotient(pair, gain_beside.Z(theta))
+                                                             : eigenpair_near(gain_beside, theta, pair.nu).nu;
+    if (const complex<double> change = (nu - pair.nu) / step_m; std::abs(change) < std::abs(least)) least = change;
   }
-  return result;
+  return least;
+}
+
+/// A step of Newton's rule for angle and depth together, and what it started from.
+struct NewtonStep {
+  double depth_m = 0.0, theta_rad = 0.0;
+  Eigenpair pair;            ///< near 1/depth on the grid of this depth
+  complex<double> by_depth;  ///< ∂ν/∂w
+  double miss = 0.0;         ///< |ν − 1/w| w; 0 of none
+};
+
+/// ∂ν/∂w by the secant from the step before: what the change of the angle does not explain. None if that step says too
+/// little: it is too short for a difference, or did not bring ν nearer by half, as where the grid has changed.
+std::optional<complex<double>> secant(const NewtonStep& before, const NewtonStep& now) {
+  const double dw = now.depth_m - before.depth_m;
+  if (now.miss > 0.5 * before.miss || std::abs(dw) < 1e-5 * now.depth_m) return std::nullopt;
+  const complex<double> by_angle = 0.5 * (before.pair.slope + now.pair.slope) * (now.theta_rad - before.theta_rad);
+  return (now.pair.nu - before.pair.nu - by_angle) / dw;
 }
 
 /// Brings a crossing to where ν(θ, w) = 1/w on grids of its own depth, by Newton's rule for angle and depth together.
@@ -67,10 +76,19 @@ bool settled(const CutAtSpeed& cut, Resolution resolution, double from_m, double
   const bool at_end = crossing.theta_rad == 0.0 || crossing.theta_rad == std::numbers::pi;
   double depth = std::min(crossing.depth_m, height);
   double theta = crossing.theta_rad;
+  NewtonStep before;
+  int not_nearer = 0;
   for (int step = 0; step < 12; ++step) {
     // ν(θ, w) − 1/w = 0 is one complex equation for two real unknowns, linearised in both.
-    const PairAtDepth at = pair_at(cut, resolution, depth, theta);
+    const DiscreteCut d = discrete(cut, resolution, depth);
+    const GainOnCircle gain = gain_of(d);
+    NewtonStep at{depth, theta, eigenpair_near(gain, theta, 1.0 / depth, step == 0 ? nullptr : &before.pair), {}, 0.0};
     const complex<double> miss = at.pair.nu - 1.0 / depth;
+    at.miss = std::abs(miss) * depth;
+    // Of the guesses that lead nowhere nearly all come no nearer twice, of the others one in thirty.
+    if (step > 0 && at.miss > 0.5 * before.miss && ++not_nearer == 2) return false;
+    const std::optional<complex<double>> by_secant = secant(before, at);
+    at.by_depth = by_secant ? *by_secant : change_with_depth(cut, resolution, depth, theta, gain, at.pair);
     const complex<double> by_depth = at.by_depth + 1.0 / (depth * depth);
     Eigen::Matrix2d rows;
     rows << at.pair.slope.real(), by_depth.real(), at.pair.slope.imag(), by_depth.imag();
@@ -79,18 +97,22 @@ bool settled(const CutAtSpeed& cut, Resolution resolution, double from_m, double
                                        ? Eigen::Vector2d(0.0, -miss.real() / by_depth.real())
                                        : Eigen::Vector2d(-rows.inverse() * Eigen::Vector2d(miss.real(), miss.imag()));
     if (!change.allFinite()) return false;
-    // A short step alone may come from a derivative over a jump of the grid: ν must be there, too, as near as the step
-    // allows where it changes a hundred times as fast as 1/w.
-    if (std::abs(miss) * depth <= 100.0 * tolerance && std::abs(change(1)) <= tolerance * depth) {
+    // Newton's rule and secants gain more from step to step, so that this step leaves less than its share of what the
+    // one before left. A short step alone may come from a derivative over a jump of the grid: ν must be there, too, as
+    // near as the step allows where it changes a hundred times as fast as 1/w.
+    const double length = std::abs(change(1)) / depth;
+    const double left = std::min(1.0, at.miss / before.miss) * std::max(length, at.miss);
+    if ((length <= tolerance || left <= tolerance) && at.miss <= 100.0 * std::max(length, tolerance)) {
       const double leaves = -(i * by_depth / at.pair.slope).real();
       crossing = {depth + change(1), theta + change(0), (at_end ? 1 : 2) * (leaves > 0.0 ? 1 : -1), at.pair.right};
       return crossing.depth_m <= height;
     }
     // ν is known near here only: the depth moves by a tenth at most, the angle by half a radian.
     const double shorter = std::min({1.0, 0.1 * depth / std::abs(change(1)), 0.5 / std::abs(change(0))});
-    const double before = std::exchange(depth, std::min(depth + shorter * change(1), height));
+    depth = std::min(depth + shorter * change(1), height);
     theta += shorter * change(0);
-    if (depth == before || depth < from_m || theta < 0.0 || theta > std::numbers::pi) return false;
+    if (depth == at.depth_m || depth < from_m || theta < 0.0 || theta > std::numbers::pi) return false;
+    before = std::move(at);
   }
   return false;
 }
@@ -142,7 +164,8 @@ class HelicalSearch {
     return probe;
   }
 
-  /// The multipliers at this depth, those nearest to the circle among the ones that the cut moves for guesses.
+  /// The multipliers at this depth, those nearest to the circle among the ones that the cut moves for guesses:
+  /// `unstable_change` is 1 for those outside, −1 for those within.
   [[nodiscard]] Probe counted(double depth_m) const {
     constexpr std::size_t most = 6;
     const DiscreteCut d = discrete(cut_, resolution(depth_m), depth_m);
@@ -158,7 +181,7 @@ class HelicalSearch {
     near.resize(std::min(near.size(), most));
     for (const complex<double> mu : near) {
       const double theta = mu.imag() > 0.0 ? std::arg(mu) : mu.real() > 0.0 ? 0.0 : std::numbers::pi;
-      probe.guesses.push_back({depth_m, theta, 0, {}});
+      probe.guesses.push_back({depth_m, theta, std::abs(mu) > 1.0 ? 1 : -1, {}});
     }
     return probe;
   }
@@ -215,9 +238,13 @@ class HelicalSearch {
       }
     };
     // Deep in an unstable range nothing is looked for once the count is explained: what cancels there changes no limit.
-    // The guesses of the upper depth come first, since crossings lie below it; those of the lower one only if they are
-    // needed.
-    add_from(high.guesses);
+    // The guesses of the upper depth come first, since crossings lie below it, and of them those that are by then on
+    // the side to which the count has changed; those of the lower depth only if they are needed.
+    const int side = high.unstable > low.unstable ? 1 : -1;
+    std::vector<Crossing> likeliest_first = high.guesses;
+    std::stable_partition(likeliest_first.begin(), likeliest_first.end(),
+                          [&](const Crossing& c) { return c.unstable_change * side > 0; });
+    add_from(likeliest_first);
     if (!explained()) add_from(low.guesses);
     // The crossings between two depths are all if their changes add up to that of the count.
     if (explained()) {
