@@ -45,6 +45,8 @@ complex<double> change_with_depth(const CutAtSpeed& cut, Resolution resolution, 
   return least;
 }
 
+constexpr int most_steps = 12;  // of Newton's rule
+
 /// A step of Newton's rule for angle and depth together, and what it started from.
 struct NewtonStep {
   double depth_m = 0.0, theta_rad = 0.0;
@@ -67,9 +69,10 @@ std::optional<complex<double>> secant(const NewtonStep& before, const NewtonStep
 ///
 ///     d ln|μ|/dw = −Re[i (∂ν/∂w + 1/w²) / (∂ν/∂θ)] > 0.
 ///
-/// False if the depth does not settle to 1e-7 (relative) between two depths and among the edges. Throws NumericalError
-/// if an eigenvalue is not found.
-bool settled(const CutAtSpeed& cut, Resolution resolution, double from_m, double to_m, Crossing& crossing) {
+/// False if the depth does not settle to 1e-7 (relative) between two depths and among the edges, or if so many steps do
+/// not bring ν nearer by half. Throws NumericalError if an eigenvalue is not found.
+bool settled(const CutAtSpeed& cut, Resolution resolution, double from_m, double to_m, int patience,
+             Crossing& crossing) {
   constexpr complex<double> i(0.0, 1.0);
   constexpr double tolerance = 1e-7;
   const double height = std::min(to_m, cut.process.cutter.envelope.height_m);
@@ -78,15 +81,14 @@ bool settled(const CutAtSpeed& cut, Resolution resolution, double from_m, double
   double theta = crossing.theta_rad;
   NewtonStep before;
   int not_nearer = 0;
-  for (int step = 0; step < 12; ++step) {
+  for (int step = 0; step < most_steps; ++step) {
     // ν(θ, w) − 1/w = 0 is one complex equation for two real unknowns, linearised in both.
     const DiscreteCut d = discrete(cut, resolution, depth);
     const GainOnCircle gain = gain_of(d);
     NewtonStep at{depth, theta, eigenpair_near(gain, theta, 1.0 / depth, step == 0 ? nullptr : &before.pair), {}, 0.0};
     const complex<double> miss = at.pair.nu - 1.0 / depth;
     at.miss = std::abs(miss) * depth;
-    // Of the guesses that lead nowhere nearly all come no nearer twice, of the others one in thirty.
-    if (step > 0 && at.miss > 0.5 * before.miss && ++not_nearer == 2) return false;
+    if (step > 0 && at.miss > 0.5 * before.miss && ++not_nearer == patience) return false;
     const std::optional<complex<double>> by_secant = secant(before, at);
     at.by_depth = by_secant ? *by_secant : change_with_depth(cut, resolution, depth, theta, gain, at.pair);
     const complex<double> by_depth = at.by_depth + 1.0 / (depth * depth);
@@ -118,9 +120,10 @@ bool settled(const CutAtSpeed& cut, Resolution resolution, double from_m, double
 }
 
 /// Settles a crossing as above; returns false where a guess leads to no eigenvalue.
-bool settle(const CutAtSpeed& cut, Resolution resolution, double from_m, double to_m, Crossing& crossing) {
+bool settle(const CutAtSpeed& cut, Resolution resolution, double from_m, double to_m, int patience,
+            Crossing& crossing) {
   try {
-    return settled(cut, resolution, from_m, to_m, crossing);
+    return settled(cut, resolution, from_m, to_m, patience, crossing);
   } catch (const core::NumericalError&) {
     return false;
   }
@@ -226,12 +229,15 @@ class HelicalSearch {
   [[nodiscard]] bool between(const Probe& low, const Probe& high, int halvings, CoarseCrossings& scan) const {
     std::vector<Crossing> inside;
     int change = 0;
+    // Guesses that lead nowhere come no nearer twice as a rule, of the others one in thirty. While the cut is stable
+    // that one may be a crossing of which the frozen cut has no sign.
+    const int patience = low.unstable > 0 ? 2 : most_steps;
     const auto explained = [&] { return change == high.unstable - low.unstable; };
     const auto add_from = [&](const std::vector<Crossing>& guesses) {
       for (const Crossing& guess : guesses) {
         if (low.unstable > 0 && explained()) return;
         Crossing c = guess;
-        if (!settle(cut_, resolution(high.depth_m), 0.9 * low.depth_m, 1.1 * high.depth_m, c)) continue;
+        if (!settle(cut_, resolution(high.depth_m), 0.9 * low.depth_m, 1.1 * high.depth_m, patience, c)) continue;
         if (c.depth_m <= low.depth_m || c.depth_m > high.depth_m || is_known(c, inside)) continue;
         change += c.unstable_change;
         inside.push_back(std::move(c));
@@ -295,8 +301,8 @@ class HelicalGrids : public SearchGrids {
     const Resolution next = resolution(level, crossing.depth_m);
     if (level > 2 && next.elements * next.nodes > options_.most_nodes) return OnFinerGrid::none_finer;
     finest_ = std::max(finest_, next.elements * next.nodes);
-    return settle(cut_, next, 0.9 * crossing.depth_m, 1.1 * crossing.depth_m, crossing) ? OnFinerGrid::kept
-                                                                                        : OnFinerGrid::lost;
+    const double w = crossing.depth_m;
+    return settle(cut_, next, 0.9 * w, 1.1 * w, most_steps, crossing) ? OnFinerGrid::kept : OnFinerGrid::lost;
   }
   [[nodiscard]] double unresolved(std::size_t level, double depth_m) override {
     return milling::unresolved(cut_, resolution(level, depth_m), depth_m);
