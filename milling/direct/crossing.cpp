@@ -68,16 +68,12 @@ complex<double> rayleigh_quotient(const Eigenpair& pair, const Eigen::MatrixXcd&
   return -(pair.left.transpose() * Z * pair.right).value() / (pair.left.transpose() * pair.right).value();
 }
 
-Eigenpair eigenpair_near(const GainOnCircle& gain, double theta, complex<double> guess, const Eigenpair* start) {
+Eigenpair eigenpair_near(const GainOnCircle& gain, double theta, complex<double> guess) {
   // Near a crossing the guess is so good that one factorisation serves: each solve then gains the square of the ratio
   // of the distances from the guess to the eigenvalue and to the next one.
   constexpr int most_factorisations = 12, solves_of_each = 8;
   const Eigen::MatrixXcd Z = gain.Z(theta);
   Eigenpair pair = started_at(gain.size, guess);
-  if (start != nullptr && start->right.size() == gain.size) {
-    pair.right = start->right;
-    pair.left = start->left;
-  }
   complex<double> before = INFINITY;
   for (int factorisation = 0; factorisation < most_factorisations; ++factorisation) {
     const linalg::ComplexLu lu = factored(Z, pair.nu);

@@ -32,12 +32,10 @@ struct Eigenpair {
   Eigen::VectorXcd right, left;
 };
 
-/// The eigenvalue nearest to a guess at a fixed angle, by inverse iterations on both sides. They begin with the vectors
-/// of `start`, a pair of a gain or an angle near by with as many contacts, if there is one: its branch is followed
-/// then, with fewer solves. Throws NumericalError if they do not converge. Cost: a factorisation of the size of Z, more
-/// where the guess is no better than the distance to the next eigenvalue.
-[[nodiscard]] Eigenpair eigenpair_near(const GainOnCircle& gain, double theta_rad, std::complex<double> guess,
-                                       const Eigenpair* start = nullptr);
+/// The eigenvalue nearest to a guess at a fixed angle, by inverse iterations on both sides. Throws NumericalError if
+/// they do not converge. Cost: a factorisation of the size of Z, more where the guess is no better than the distance to
+/// the next eigenvalue.
+[[nodiscard]] Eigenpair eigenpair_near(const GainOnCircle& gain, double theta_rad, std::complex<double> guess);
 
 /// The eigenvalue −lᵀ Z r / lᵀ r that the vectors of a pair give of a gain near by with the same contacts: exact to
 /// first order in the change of Z.

@@ -85,7 +85,8 @@ bool settled(const CutAtSpeed& cut, Resolution resolution, double from_m, double
     // ν(θ, w) − 1/w = 0 is one complex equation for two real unknowns, linearised in both.
     const DiscreteCut d = discrete(cut, resolution, depth);
     const GainOnCircle gain = gain_of(d);
-    NewtonStep at{depth, theta, eigenpair_near(gain, theta, 1.0 / depth, step == 0 ? nullptr : &before.pair), {}, 0.0};
+    // The eigenvalue nearest to 1/w may be another one at each step, so that no vectors of the step before are a start.
+    NewtonStep at{depth, theta, eigenpair_near(gain, theta, 1.0 / depth), {}, 0.0};
     const complex<double> miss = at.pair.nu - 1.0 / depth;
     at.miss = std::abs(miss) * depth;
     if (step > 0 && at.miss > 0.5 * before.miss && ++not_nearer == patience) return false;
