@@ -5,8 +5,8 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return thinwall::fuzz::read_matrix_bytes(data, size, [](std::string_view bytes) {
-    const std::vector<thinwall::io::Op4Matrix> matrices = thinwall::io::read_op4(bytes, "fuzz");
-    for (const thinwall::io::Op4Matrix& matrix : matrices)
+    const std::vector<thinwall::io::NastranMatrix> matrices = thinwall::io::read_op4(bytes, "fuzz");
+    for (const thinwall::io::NastranMatrix& matrix : matrices)
       if (!matrix.entries.empty()) thinwall::fuzz::assemble({"fuzz", matrix.rows, matrix.entries, matrix.form == 6});
   });
 }

@@ -1,9 +1,9 @@
 #pragma once
 // The headers of io/ that other programs may include.
-// Internal: csv_text, ear_clipping, gmsh_element, gmsh_numbers, inp_text, json_file, mat4, mat5_layout, mat_variables,
-// mat_version, matrix_entries, matrix_names, nastran_cards, number_at, op4_source, ply_heading, program_id,
-// step_triangles, surface_facets, surface_text, surface_unit, uff_fields, uff_meaning, uff_units, universal_file,
-// vtu_array, vtu_reader, zip_archive.
+// Internal: csv_text, ear_clipping, fortran_records, gmsh_element, gmsh_numbers, inp_text, json_file, mat4,
+// mat5_layout, mat_variables, mat_version, matrix_entries, matrix_names, nastran_cards, number_at, op4_source,
+// ply_heading, program_id, step_triangles, surface_facets, surface_text, surface_unit, uff_fields, uff_meaning,
+// uff_units, universal_file, vtu_array, vtu_reader, zip_archive.
 
 #include "core/eigen_alignment.hpp"
 #include "io/base64.hpp"
@@ -31,6 +31,8 @@
 #include "io/matrices/matrix_format.hpp"
 #include "io/matrices/matrix_market.hpp"
 #include "io/matrices/matrix_triplets.hpp"
+#include "io/matrices/nastran_matrix.hpp"
+#include "io/matrices/op2.hpp"
 #include "io/matrices/op4.hpp"
 #include "io/mesh/gmsh.hpp"
 #include "io/mesh/inp.hpp"

@@ -15,6 +15,7 @@
 #include "io/matrices/matrix_format.hpp"
 #include "io/matrices/matrix_market.hpp"
 #include "io/matrices/matrix_triplets.hpp"
+#include "io/matrices/op2.hpp"
 #include "io/matrices/op4.hpp"
 #include "io/surface_text.hpp"
 
@@ -25,7 +26,7 @@ namespace {
 using dynamics::NodeDof;
 using dynamics::SparseModel;
 
-enum class Format { mat, matrix_market, dmig, op4, labelled, triplets };
+enum class Format { mat, matrix_market, dmig, op2, op4, labelled, triplets };
 
 const char* name_of(Format format) {
   switch (format) {
@@ -35,6 +36,8 @@ const char* name_of(Format format) {
       return "Matrix Market";
     case Format::dmig:
       return "Nastran DMIG";
+    case Format::op2:
+      return "Nastran OP2";
     case Format::op4:
       return "Nastran OP4";
     case Format::labelled:
@@ -55,6 +58,7 @@ bool has_dmig(std::string_view bytes) {
 Format format_of(std::string_view bytes, const std::string& path) {
   if (mat_version(bytes) != MatVersion::none) return Format::mat;
   if (is_matrix_market(bytes)) return Format::matrix_market;
+  if (is_op2(bytes)) return Format::op2;
   if (is_op4(bytes)) return Format::op4;
   const int fields = fields_of_first_line(bytes);
   const auto first = bytes.find_first_not_of(" \t\r\n");
@@ -66,7 +70,7 @@ Format format_of(std::string_view bytes, const std::string& path) {
   throw core::DataError(
       path +
       ": is no matrix that is known: Matrix Market (%%MatrixMarket), CalculiX .sti or .mas and Abaqus "
-      ".mtx (lines of three or five numbers), Nastran DMIG and OP4, MAT");
+      ".mtx (lines of three or five numbers), Nastran DMIG, OP2 and OP4, MAT");
 }
 
 /// The three matrices of the files, by row or by label; a matrix that is not given has no path.
@@ -105,13 +109,14 @@ void take_dmig(const std::string& bytes, const std::string& path, const MatrixFi
   matrices.positions.insert(file.positions.begin(), file.positions.end());
 }
 
-void take_op4(const std::string& bytes, const std::string& path, const MatrixFiles& files, std::size_t which,
-              Matrices& matrices) {
-  const std::vector<Op4Matrix> file = read_op4(bytes, path);
+/// Takes the matrices of a file of OUTPUT2 or OUTPUT4.
+void take_nastran(const std::vector<NastranMatrix>& file, const std::string& path, const MatrixFiles& files,
+                  std::size_t which, Matrices& matrices) {
   std::vector<std::string> names;
-  for (const Op4Matrix& matrix : file) names.push_back(matrix.name);
+  names.reserve(file.size());
+  for (const NastranMatrix& matrix : file) names.push_back(matrix.name);
   take_several(files, which, names, [&](std::size_t k, const std::string& wanted, char letter) {
-    matrices.rows[k] = op4_matrix(file, wanted, letter, path);
+    matrices.rows[k] = nastran_matrix(file, wanted, letter, path);
   });
 }
 
@@ -132,7 +137,8 @@ Matrices take_files(const MatrixFiles& files) {
     if (format == Format::triplets) matrices.rows[k] = triplet_entries(bytes, path);
     if (format == Format::labelled) matrices.labelled[k] = labelled_triplets(bytes, path);
     if (format == Format::dmig) take_dmig(bytes, path, files, k, matrices);
-    if (format == Format::op4) take_op4(bytes, path, files, k, matrices);
+    if (format == Format::op2) take_nastran(read_op2(bytes, path), path, files, k, matrices);
+    if (format == Format::op4) take_nastran(read_op4(bytes, path), path, files, k, matrices);
   }
   return matrices;
 }
@@ -245,7 +251,7 @@ void require_each_once(const std::vector<NodeDof>& dofs, const std::filesystem::
 
 bool may_hold_several_matrices(const std::filesystem::path& path) {
   const Format format = format_of(core::read_file(path), path.string());
-  return format == Format::mat || format == Format::dmig || format == Format::op4;
+  return format == Format::mat || format == Format::dmig || format == Format::op2 || format == Format::op4;
 }
 
 std::filesystem::path dof_table_path(const MatrixFiles& files) {

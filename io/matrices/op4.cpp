@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
+#include <utility>
 
 #include "core/error.hpp"
-#include "io/matrices/matrix_names.hpp"
 #include "io/matrices/op4_source.hpp"
 
 namespace thinwall::io {
@@ -13,32 +14,11 @@ namespace {
 
 constexpr std::int64_t most_rows_of_short_strings = 65535;
 
-/// The matrix that a head describes, without entries.
-template <class Source>
-Op4Matrix described(const Op4Head& head, const Source& source) {
-  const std::int64_t rows = std::abs(head.rows);
-  const bool sound = head.columns >= 0 && head.columns <= largest_label && head.rows > -largest_label &&
-                     rows <= largest_label && head.form >= 0 && head.form <= 15 && head.type >= 1 && head.type <= 4 &&
-                     !head.name.empty();
-  if (!sound) source.fail("no head of a matrix (columns, rows, form, type from 1 to 4, name): export the file again");
-  return {head.name,
-          static_cast<int>(head.form),
-          static_cast<int>(head.type),
-          static_cast<int>(rows),
-          static_cast<int>(head.columns),
-          {}};
-}
-
-bool is_read(const Op4Matrix& matrix) {
-  return matrix.type <= 2 && matrix.rows == matrix.columns &&
-         (matrix.form == 1 || matrix.form == 2 || matrix.form == 6);
-}
-
 /// A reader of the columns of one matrix.
 template <class Source>
 class ColumnReader {
  public:
-  ColumnReader(Source& source, Op4Matrix& matrix, bool large)
+  ColumnReader(Source& source, NastranMatrix& matrix, bool large)
       : source_(source), matrix_(matrix), large_(large), words_(matrix.type % 2 == 1 ? 1 : source.words_of_double()) {}
 
   void read() {
@@ -83,7 +63,7 @@ class ColumnReader {
   }
 
   Source& source_;
-  Op4Matrix& matrix_;
+  NastranMatrix& matrix_;
   bool large_ = false;
   int words_ = 1;  ///< of a number
   std::int64_t next_row_ = 1;
@@ -91,10 +71,14 @@ class ColumnReader {
 };
 
 template <class Source>
-std::vector<Op4Matrix> all_matrices(Source&& source) {
-  std::vector<Op4Matrix> matrices;
+std::vector<NastranMatrix> all_matrices(Source&& source) {
+  std::vector<NastranMatrix> matrices;
   while (const auto head = source.head()) {
-    matrices.push_back(described(*head, source));
+    std::optional<NastranMatrix> matrix =
+        described(head->name, head->columns, std::abs(head->rows), head->form, head->type);
+    if (!matrix)
+      source.fail("no head of a matrix (columns, rows, form, type from 1 to 4, name): export the file again");
+    matrices.push_back(std::move(*matrix));
     const bool large = head->rows < 0 || head->rows > most_rows_of_short_strings;
     ColumnReader(source, matrices.back(), large).read();
   }
@@ -107,24 +91,11 @@ bool is_op4(std::string_view bytes) {
   return Op4Bytes::begins(bytes) || is_op4_text(bytes);
 }
 
-std::vector<Op4Matrix> read_op4(std::string_view bytes, const std::string& path) {
-  std::vector<Op4Matrix> matrices =
+std::vector<NastranMatrix> read_op4(std::string_view bytes, const std::string& path) {
+  std::vector<NastranMatrix> matrices =
       Op4Bytes::begins(bytes) ? all_matrices(Op4Bytes(bytes, path)) : all_matrices(Op4Text(bytes, path));
   if (matrices.empty()) throw core::DataError(path + ": holds no matrix of OUTPUT4");
   return matrices;
-}
-
-MatrixEntries op4_matrix(const std::vector<Op4Matrix>& matrices, const std::string& wanted, char letter,
-                         const std::string& path) {
-  std::vector<std::string> names;
-  for (const Op4Matrix& matrix : matrices) names.push_back(matrix.name);
-  const Op4Matrix& matrix = matrices[matrix_by_name(names, wanted, letter, path)];
-  if (!is_read(matrix))
-    throw core::DataError(path + ": the matrix " + matrix.name + " has " + std::to_string(matrix.rows) + " rows, " +
-                          std::to_string(matrix.columns) + " columns, form " + std::to_string(matrix.form) +
-                          " and type " + std::to_string(matrix.type) +
-                          "; a square one (form 1, 2 or 6) of real numbers (type 1 or 2) belongs here");
-  return {path, matrix.rows, matrix.entries, matrix.form == 6};
 }
 
 }  // namespace thinwall::io

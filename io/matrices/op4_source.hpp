@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "io/matrices/fortran_records.hpp"
+
 namespace thinwall::io {
 
 /// The head of a matrix. Fewer rows than none say that its strings are those of a large matrix.
@@ -32,9 +34,6 @@ struct Op4String {
   std::int64_t row = 0;
   std::int64_t words = 0;
 };
-
-/// Largest whole number that is accepted, so that sums of a few of them do not overflow.
-inline constexpr std::int64_t most_in_op4 = std::int64_t{1} << 50;
 
 /// The string whose head is the one number (words + 1) 65536 + row.
 [[nodiscard]] inline Op4String op4_string(std::int64_t head) {
@@ -81,8 +80,7 @@ class Op4Text {
   std::size_t width_ = 16;
 };
 
-/// A reader of Fortran's records: the length in 4 bytes, the data, the length again. Its calls are those of Op4Text,
-/// and throw DataError with the byte.
+/// A reader of Fortran's records. Its calls are those of Op4Text, and throw DataError with the byte.
 class Op4Bytes {
  public:
   /// The bytes must outlive it; `path` is for messages.
@@ -102,9 +100,9 @@ class Op4Bytes {
   /// Leaves the record of the column.
   void end_column();
   /// Leaves the record of the column beyond the last one.
-  void end_matrix() { at_ = end_ + 4; }
+  void end_matrix() { records_.close(); }
   /// The words of a number of double precision.
-  [[nodiscard]] int words_of_double() const { return wide_ ? 1 : 2; }
+  [[nodiscard]] int words_of_double() const { return records_.word() == 8 ? 1 : 2; }
   /// The numbers of a dense column that states so many words.
   [[nodiscard]] static std::int64_t dense_numbers(std::int64_t words, int words_of_number) {
     return words / words_of_number;
@@ -112,18 +110,10 @@ class Op4Bytes {
   /// No line: bytes have none.
   [[nodiscard]] static int line() { return 0; }
   /// Throws DataError with the byte.
-  [[noreturn]] void fail(const std::string& what) const;
+  [[noreturn]] void fail(const std::string& what) const { records_.fail(what); }
 
  private:
-  void open_record();
-  std::int64_t whole();
-
-  std::string_view bytes_;
-  std::string path_;
-  std::size_t at_ = 0;
-  std::size_t end_ = 0;  ///< of the data of the record
-  bool big_endian_ = false;
-  bool wide_ = false;    ///< words of 8 bytes
+  FortranRecords records_;
   bool single_ = false;  ///< the matrix is of single precision
 };
 

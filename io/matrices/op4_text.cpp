@@ -60,7 +60,8 @@ std::string_view Op4Text::next_line() {
 std::int64_t Op4Text::whole(std::string_view text) const {
   const auto value = op4_whole(text);
   if (!value) fail(io::quoted(text) + " where a whole number belongs");
-  if (*value > most_in_op4 || *value < -most_in_op4) fail(io::quoted(text) + " is no whole number that belongs here");
+  if (*value > FortranRecords::most || *value < -FortranRecords::most)
+    fail(io::quoted(text) + " is no whole number that belongs here");
   return *value;
 }
 

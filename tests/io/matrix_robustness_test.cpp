@@ -18,6 +18,7 @@
 #include "io/matrices/mat4.hpp"
 #include "io/matrices/matrix_market.hpp"
 #include "io/matrices/matrix_triplets.hpp"
+#include "io/matrices/op2.hpp"
 #include "io/matrices/op4.hpp"
 #include "tests/processor_time.hpp"
 
@@ -54,7 +55,12 @@ const std::vector<Format>& formats() {
        }},
       {"op4",
        [](std::string_view bytes) {
-         for (const Op4Matrix& matrix : read_op4(bytes, "x"))
+         for (const NastranMatrix& matrix : read_op4(bytes, "x"))
+           assemble(MatrixEntries{"x", matrix.rows, matrix.entries, matrix.form == 6});
+       }},
+      {"op2",
+       [](std::string_view bytes) {
+         for (const NastranMatrix& matrix : read_op2(bytes, "x"))
            assemble(MatrixEntries{"x", matrix.rows, matrix.entries, matrix.form == 6});
        }},
       {"mat4", [](std::string_view bytes) {

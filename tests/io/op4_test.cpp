@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <functional>
 
 #include "core/error.hpp"
+#include "fortran_writer.hpp"
 #include "io/matrices/matrix_files.hpp"
 #include "io/matrices/matrix_format.hpp"
 #include "scratch_folder.hpp"
@@ -49,37 +49,12 @@ constexpr const char* dense_and_large_text =
     "       3       0       8\n       3       1\n 2.500000000E-01\n       3       3\n 1.000000000E+00\n"
     "       4       1       1\n 1.000000000E+00";
 
-/// Fortran's records in the byte order and with the words wanted.
-struct Writer {
-  bool turned = false;  ///< the other byte order than this machine's
-  bool wide = false;    ///< words of 8 bytes
-  bool single = false;
-
-  template <class Number>
-  [[nodiscard]] std::string raw(Number number) const {
-    std::string bytes(sizeof number, '\0');
-    std::memcpy(bytes.data(), &number, sizeof number);
-    return turned ? std::string(bytes.rbegin(), bytes.rend()) : bytes;
-  }
-  [[nodiscard]] std::string whole(const std::vector<std::int64_t>& numbers) const {
-    std::string bytes;
-    for (const std::int64_t number : numbers) bytes += wide ? raw(number) : raw(static_cast<std::int32_t>(number));
-    return bytes;
-  }
-  [[nodiscard]] std::string real(const std::vector<double>& numbers) const {
-    std::string bytes;
-    for (const double number : numbers) bytes += single && !wide ? raw(static_cast<float>(number)) : raw(number);
-    return bytes;
-  }
-  [[nodiscard]] std::string record(const std::string& data) const {
-    const std::string length = raw(static_cast<std::int32_t>(data.size()));
-    return length + data + length;
-  }
+/// Matrices as bytes of OUTPUT4.
+struct Writer : FortranWriter {
   [[nodiscard]] std::string head(std::int64_t rows, std::int64_t form, std::string name) const {
     name.resize(wide ? 16 : 8, ' ');
     return record(whole({3, rows, form, single ? 1 : 2}) + name);
   }
-  [[nodiscard]] std::int64_t words() const { return single || wide ? 1 : 2; }
   [[nodiscard]] std::string end() const { return record(whole({4, 1, words()}) + real({1.0})); }
 
   [[nodiscard]] std::string dense(const std::string& name, const Eigen::Matrix3d& A) const {
@@ -115,7 +90,7 @@ MatrixFiles in_metres(const std::filesystem::path& path, const std::filesystem::
 }
 
 std::string message(const std::string& bytes) {
-  return message_of<core::DataError>([&] { (void)op4_matrix(read_op4(bytes, "a.op4"), "", 'K', "a.op4"); });
+  return message_of<core::DataError>([&] { (void)nastran_matrix(read_op4(bytes, "a.op4"), "", 'K', "a.op4"); });
 }
 
 }  // namespace
@@ -124,7 +99,7 @@ TEST_F(Op4, GivesTheMatricesOfTextAndOfBytesInEveryForm) {
   std::vector<std::string> files{sparse_text, dense_and_large_text};
   for (const bool turned : {false, true}) {
     for (const bool wide : {false, true}) {
-      const Writer writer{turned, wide, false}, single{turned, wide, true};
+      const Writer writer{{turned, wide, false}}, single{{turned, wide, true}};
       files.push_back(writer.dense("KAA", K) + single.sparse("MAA", M, false));
       files.push_back(single.dense("KAA", K) + writer.sparse("MAA", M, true));
       files.push_back(writer.sparse("KAA", K, false) + writer.dense("MAA", M));
@@ -157,15 +132,15 @@ TEST_F(Op4, HoldsMatricesOfOtherKindsWhichAreKnownByName) {
       "       1       2       2       2PHG_LONG_NAME  1P,3E23.16\n       1       1       2\n"
       " 1.0000000000000000E+00 2.0000000000000000E+00\n       2       1       1\n 1.0000000000000000E+00\n"
       "       2       2       6       2KNULL   1P,3E23.16\n       3       1       1\n 1.0000000000000000E+00\n";
-  const std::vector<Op4Matrix> matrices = read_op4(others + sparse_text, "a.op4");
+  const std::vector<NastranMatrix> matrices = read_op4(others + sparse_text, "a.op4");
   ASSERT_EQ(matrices.size(), 5U);
   EXPECT_EQ(matrices[1].name, "PHG_LONG_NAME");
   EXPECT_EQ(matrices[2].rows, 2);
   EXPECT_TRUE(matrices[2].entries.empty());
-  EXPECT_EQ(op4_matrix(matrices, "kaa", 'K', "a.op4").size, 3);
+  EXPECT_EQ(nastran_matrix(matrices, "kaa", 'K', "a.op4").size, 3);
   for (const auto& [name, says] : {std::pair{"KC", "type 4"}, {"PHG_LONG_NAME", "2 rows, 1 columns"}, {"X", "KC, PHG"}})
     EXPECT_NE(message_of<core::DataError>([&, wanted = std::string(name)] {
-                (void)op4_matrix(matrices, wanted, 'K', "a.op4");
+                (void)nastran_matrix(matrices, wanted, 'K', "a.op4");
               }).find(says),
               std::string::npos)
         << name;
@@ -175,7 +150,7 @@ TEST_F(Op4, HoldsMatricesOfOtherKindsWhichAreKnownByName) {
 /// A symmetric matrix of which a program has written one triangle is completed; in one of another form it is all.
 TEST_F(Op4, OfOneTriangleIsCompletedIfItsFormIsSymmetric) {
   const Eigen::Matrix3d lower = K.triangularView<Eigen::Lower>();
-  const MatrixEntries half = op4_matrix(read_op4(Writer{}.dense("KAA", lower), "a.op4"), "", 'K', "a.op4");
+  const MatrixEntries half = nastran_matrix(read_op4(Writer{}.dense("KAA", lower), "a.op4"), "", 'K', "a.op4");
   EXPECT_TRUE(whole_matrix(half).was_half);
   EXPECT_EQ(Eigen::MatrixXd(whole_matrix(half).A), K);
 }
