@@ -49,8 +49,9 @@ struct FittedStructure {
 ///  - twice the larger change of the depth if every second line alone is known: what their spacing leaves open;
 ///  - its change if the poles above the last line are static, or, if larger, twice its root mean square by modes above
 ///    the lines that are as those of their last third: what the range of the lines leaves open;
-///  - five standard deviations by the scatter of ten fits, each without every tenth line (jackknife): the noise; to
-///    first order (gain_weights()) while no depth of the ten changes by more than 3 %;
+///  - five standard deviations by the scatter of ten fits, each without every tenth line (jackknife): the noise,
+///    which goes beyond in one row of some 1000; to first order (gain_weights()) while no depth of the ten changes by
+///    more than 3 %;
 ///  - the change by the remainder itself where the shape of the cut changes with the depth, because the grid is then
 ///    that of the depth before.
 ///

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/dense_eigenvalues.hpp"
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "linalg/tall.hpp"
 #include "reduction/symmetric_part.hpp"
@@ -30,6 +31,25 @@ MatrixXd extended(const MatrixXd& matrix, Index size) {
   MatrixXd result = MatrixXd::Zero(size, size);
   result.topLeftCorner(matrix.rows(), matrix.cols()) = matrix;
   return result;
+}
+
+/// The model with a coordinate of mass 1 for each frequency, which moves with the interface by directions · ω.
+dynamics::SpatialModel with_coordinates(const dynamics::SpatialModel& reduced, const MatrixXd& directions,
+                                        const VectorXd& omega) {
+  const Index n = reduced.size(), nb = directions.rows(), added = omega.size();
+  const MatrixXd L = directions * omega.asDiagonal();
+  dynamics::SpatialModel model = reduced;
+  model.M = extended(reduced.M, n + added);
+  model.K = extended(reduced.K, n + added);
+  model.C = extended(reduced.C, n + added);
+  if (reduced.has_structural_damping()) model.D = extended(reduced.D, n + added);
+  model.M.bottomRightCorner(added, added).setIdentity();
+  model.M.topRightCorner(nb, added) = L;
+  model.M.bottomLeftCorner(added, nb) = L.transpose();
+  model.K.diagonal().tail(added) = omega.cwiseAbs2();
+  for (Index k = 0; k < added; ++k)
+    model.dofs.push_back({"left out " + std::to_string(k + 1), Eigen::Vector3d::Zero(), dynamics::DofKind::modal});
+  return model;
 }
 
 }  // namespace
@@ -66,23 +86,15 @@ dynamics::SpatialModel with_left_out(const dynamics::SpatialModel& reduced, cons
   const MatrixXd V = whitening(truncation.A, own);
   if (V.cols() == 0) return reduced;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(symmetric_part(V.transpose() * truncation.B * V));
-  const Index added = V.cols();
-  // In a direction in which hardly anything was left out, round-off could make an eigenvalue zero and its frequency
-  // infinite; a lower bound prevents that.
-  const double least = 1e-8 * eigen.eigenvalues().maxCoeff();
-  const VectorXd omega = eigen.eigenvalues().cwiseMax(least).cwiseSqrt().cwiseInverse();
-  const MatrixXd L = truncation.A * V * eigen.eigenvectors() * omega.asDiagonal();
-  dynamics::SpatialModel model = reduced;
-  model.M = extended(reduced.M, n + added);
-  model.K = extended(reduced.K, n + added);
-  model.C = extended(reduced.C, n + added);
-  if (reduced.has_structural_damping()) model.D = extended(reduced.D, n + added);
-  model.M.bottomRightCorner(added, added).setIdentity();
-  model.M.topRightCorner(nb, added) = L;
-  model.M.bottomLeftCorner(added, nb) = L.transpose();
-  model.K.diagonal().tail(added) = omega.cwiseAbs2();
-  for (Index k = 0; k < added; ++k)
-    model.dofs.push_back({"left out " + std::to_string(k + 1), Eigen::Vector3d::Zero(), dynamics::DofKind::modal});
+  const MatrixXd directions = truncation.A * V * eigen.eigenvectors();
+  // In a direction in which hardly anything was left out B is round-off: its frequency could come out infinite, or take
+  // more mass than the interface has. A lower bound of the eigenvalues prevents both, no higher than is needed.
+  dynamics::SpatialModel model;
+  for (double least = 1e-8; least <= 1.0; least *= 10.0) {
+    const VectorXd bounded = eigen.eigenvalues().cwiseMax(least * eigen.eigenvalues().maxCoeff());
+    model = with_coordinates(reduced, directions, bounded.cwiseSqrt().cwiseInverse());
+    if (Eigen::LLT<MatrixXd>(model.M).info() == Eigen::Success) break;
+  }
   return model;
 }
 

@@ -200,7 +200,10 @@ TEST(SampledLines, NoiseIsInTheEstimate) {
   }
   tally.print("noise");
   EXPECT_GE(tally.rows, structures / 2);
-  EXPECT_EQ(tally.beyond, 0);
+  // Five standard deviations from the scatter of ten fits: Student's t of nine degrees of freedom is beyond 5 in 7.4e-4
+  // of the rows, which is none of 200 as a rule and 1.5 of 2000, seven or more of them once in a thousand times.
+  EXPECT_LE(tally.beyond, structures > 200 ? 6 : 0);
+  EXPECT_LT(tally.worst, 2.0);
 }
 
 }  // namespace

@@ -100,6 +100,14 @@ TEST(ModeCount, OfRandomPartsKeepsTheToleranceWithHardlyMoreThanTheLeastModes) {
               worst_error, worst_size);
 }
 
+/// Of this free part round-off in what was left out would take more mass than its interface has.
+TEST(ModeCount, RoundOffInWhatWasLeftOutTakesNoMoreMassThanThereIs) {
+  const Reducible part = random_part(15);
+  const ChosenModes chosen = modes_for_tolerance(part.full, part.interface, {.tolerance = 0.1, .band = band_of(part)});
+  EXPECT_EQ(chosen.status, ModeCountStatus::met);
+  EXPECT_LT(chosen.reference_error, 1e-3);
+}
+
 /// Estimates against the full model, count by count.
 TEST(ModeCount, EstimatesAreTheTrueErrors) {
   const Reducible part = random_part(5);
