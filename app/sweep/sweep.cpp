@@ -14,6 +14,7 @@
 #include "app/log.hpp"
 #include "app/signals.hpp"
 #include "app/stage_display.hpp"
+#include "app/sweep/sweep_jobs.hpp"
 #include "app/sweep/sweep_record.hpp"
 #include "app/sweep/sweep_table.hpp"
 #include "app/terminal.hpp"
@@ -206,6 +207,21 @@ void require_same_sweep(const std::string& first, const SweepPlan& plan, const s
                          "; merge the shards of one sweep");
 }
 
+/// Names the points that no shard has, and the shards that have not ended.
+void tell_of_missing(const std::vector<std::string>& folders, const std::vector<std::size_t>& missing,
+                     std::ostream& text) {
+  for (const std::string& folder : folders)
+    for (const OpenShard& shard : open_shards(folder))
+      text << "  shard " << shard.number
+           << (shard.given_up ? " was killed twice" : " has not ended: it runs, or was killed") << "; see "
+           << (fs::path(folder) / "shards" / (shard.number + ".log")).string() << '\n';
+  if (missing.empty()) return;
+  constexpr std::size_t most_named = 20;
+  text << "  " << missing.size() << (missing.size() == 1 ? " point is" : " points are") << " missing:";
+  for (std::size_t i = 0; i < std::min(missing.size(), most_named); ++i) text << ' ' << missing[i];
+  text << (missing.size() > most_named ? " …" : "") << "; run their shards again, which go on where they stopped\n";
+}
+
 }  // namespace
 
 ExitCode run_sweep(const SweepRequest& request, const RunCase& run_case, std::ostream& out) {
@@ -222,6 +238,10 @@ ExitCode run_sweep(const SweepRequest& request, const RunCase& run_case, std::os
   make_sweep_folder(folder);
   if (std::error_code ignored; request.fresh) fs::remove_all(shared_parts(folder), ignored);
   write_plan(folder, plan);
+  if (request.slurm || request.parallel) {
+    write_jobs(request, sweep_jobs(request, table, folder, name), out);
+    return ExitCode::done;
+  }
   const auto start = Clock::now();
   std::size_t done = 0;
   const auto mine = static_cast<std::size_t>(
@@ -255,18 +275,19 @@ ExitCode merge_sweeps(const std::vector<std::string>& folders, const fs::path& o
   const SweepPlan plan = read_plan(folders.front());
   for (const std::string& folder : folders) require_same_sweep(folders.front(), plan, folder, read_plan(folder));
   SweepTable table = empty_table(plan.axes);
-  bool complete = true;
+  std::vector<std::size_t> missing;
   for (SweepRow& row : table.rows) {
     const bool found = std::ranges::any_of(folders, [&](const fs::path& folder) {
       return read_row(point_folder(folder, row.number, table.rows.size()), plan, row);
     });
-    complete = complete && found;
+    if (!found) missing.push_back(row.number);
   }
   make_sweep_folder(out);
   write_tables(out, table);
   text << sweep_text(table) << "\n  table: " << (out / "sweep.csv").string() << '\n';
+  tell_of_missing(folders, missing, text);
   const ExitCode code = code_of(table);
-  return code == ExitCode::done && !complete ? ExitCode::numerical : code;
+  return code == ExitCode::done && !missing.empty() ? ExitCode::numerical : code;
 }
 
 }  // namespace thinwall::app

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <sstream>
 
+#include "app/sweep/job_scripts.hpp"
 #include "app/sweep/sweep_table.hpp"
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
@@ -366,6 +368,45 @@ TEST_F(Sweep, AFailedPointIsARowAndTheOthersGoOn) {
   EXPECT_EQ(run_sweep({(folder() / "case").string(), {"tool.teeth=2"}, {}, (folder() / "bad").string(), "", false, -1},
                       singular, text),
             core::ExitCode::numerical);
+}
+
+TEST_F(Sweep, OfJobsIsWrittenAndNotComputed) {
+  SweepRequest request{case_folder.string(), {"tool.teeth=2:5:1"}, {}, (folder() / "jobs").string(), "", false, -1};
+  request.slurm = request.parallel = true;
+  request.shards = 3;
+  request.threads = 2;
+  request.sbatch = {"--partition=long"};
+  const RunCase none = [](const Case&, const RunOptions&) -> RunResult { throw core::NumericalError("computed"); };
+  EXPECT_EQ(run_sweep(request, none, text), core::ExitCode::done);
+  const std::string array = core::read_file(folder() / "jobs" / "shards.sbatch");
+  for (const char* line : {"#SBATCH --array=1-3\n", "#SBATCH --cpus-per-task=2\n", "#SBATCH --partition=long\n",
+                           "#SBATCH --requeue\n", "--shard \"$shard\"/3\n", " tool.teeth=2:5:1 ", " --threads 2 "})
+    EXPECT_NE(array.find(line), std::string::npos) << line << '\n' << array;
+  EXPECT_TRUE(fs::exists(folder() / "jobs" / "merge.sbatch"));
+  EXPECT_TRUE(fs::exists(folder() / "jobs" / "parallel.sh"));
+  request.shards = 5;
+  EXPECT_THROW((void)run_sweep(request, none, text), core::UsageError) << "four points";
+}
+
+TEST_F(Sweep, MergeTellsOfWhatIsMissing) {
+  EXPECT_EQ(sweep("part", {"tool.teeth=2, 3"}, "1/2"), core::ExitCode::done);
+  fs::create_directory(folder() / "part" / "shards");
+  core::write_file_atomically(folder() / "part" / "shards" / "2.killed", "");
+  text.str("");
+  EXPECT_EQ(merge({"part"}, "table"), core::ExitCode::numerical);
+  EXPECT_NE(text.str().find("shard 2 was killed twice"), std::string::npos) << text.str();
+  EXPECT_NE(text.str().find("1 point is missing: 2;"), std::string::npos) << text.str();
+}
+
+/// A shell gives back what it was handed.
+TEST(ShellWord, IsOneWordOfTheShell) {
+  for (const std::string word : {"plain-1.5,x=y", "two words", "it's", "$HOME `ls` \"q\" \\", "*", "", "a;b|c&d>e"}) {
+    std::FILE* pipe = ::popen(("printf %s " + shell_word(word)).c_str(), "r");
+    std::string said;
+    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) said += static_cast<char>(c);
+    EXPECT_EQ(::pclose(pipe), 0);
+    EXPECT_EQ(said, word);
+  }
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ TEST_F(Op2, CutShortIsRefused) {
   const std::string bytes = Writer{}.label() + Writer{}.matrix("KAA", K);
   for (std::size_t length = 1; length < bytes.size(); ++length)
     EXPECT_FALSE(message(bytes.substr(0, length)).empty()) << length;
-  EXPECT_TRUE(message(bytes).empty()) << message(bytes);
+  EXPECT_EQ(nastran_matrix(read_op2(bytes, "a.op2"), "", 'K', "a.op2").size, 3);
 }
 
 TEST_F(Op2, TellsTheByteOfAFault) {
@@ -123,7 +123,6 @@ TEST_F(Op2, TellsTheByteOfAFault) {
            {head + first + writer.keys({-4, 1, 1, -5, 1, 1, -6, 1, 1, -7, 1, 0, 0}), "more columns follow"},
            {writer.key(2) + writer.name("KAA") + writer.keys({-2}), "the key -1 is missing"},
            {writer.block_head("KAA", {101, 3, 3, 6, 9, 6, 5000}) + first + end, "trailer of a table"},
-           {head + first + writer.keys({5, 7}), "is not whole"},
        }) {
     const std::string said = message(bytes);
     EXPECT_NE(said.find(says), std::string::npos) << said << "\n" << says;
