@@ -6,9 +6,12 @@
 #include <numeric>
 #include <utility>
 
+#include "core/atomic_file.hpp"
 #include "io/json_file.hpp"
 #include "io/results/csv_table.hpp"
 #include "posture/mode_targets.hpp"
+#include "report/page/page.hpp"
+#include "report/postures/posture_page.hpp"
 #include "report/postures/posture_summary.hpp"
 #include "report/summary/write_json.hpp"
 
@@ -186,7 +189,8 @@ void write_next(const std::filesystem::path& file, const study::PostureStudy& st
 
 }  // namespace
 
-void write_posture_study(const std::filesystem::path& folder, const study::PostureStudy& study) {
+void write_posture_study(const std::filesystem::path& folder, const study::PostureStudy& study,
+                         const std::string& title, const std::string& program) {
   std::filesystem::create_directories(folder);
   write_modes(folder / "modes.csv", study);
   write_errors(folder / "errors.csv", study);
@@ -196,6 +200,7 @@ void write_posture_study(const std::filesystem::path& folder, const study::Postu
   write_envelope(folder / "envelope.csv", study);
   write_next(folder / "next.csv", study);
   io::write_json(folder / "postures.json", json_of(summary_of(study)));
+  core::write_file_atomically(folder / "postures.html", page(posture_document(study, title, program)));
 }
 
 }  // namespace thinwall::report

@@ -2,6 +2,7 @@
 // The tables of a study of postures.
 
 #include <filesystem>
+#include <string>
 
 #include "study/postures/posture_study.hpp"
 
@@ -18,8 +19,10 @@ namespace thinwall::report {
 ///   envelope.csv   a row a speed: depths of the low, of the high, and of all modes
 ///   next.csv       a row a candidate: the share of the variance that a test there takes
 ///   postures.json  the figures of LearnedRobotSummary
+///   postures.html  the page under a title, made by `program` ("thinwall 0.1.0")
 ///
 /// Throws DataError for a folder that cannot be made or written.
-void write_posture_study(const std::filesystem::path& folder, const study::PostureStudy& study);
+void write_posture_study(const std::filesystem::path& folder, const study::PostureStudy& study,
+                         const std::string& title, const std::string& program);
 
 }  // namespace thinwall::report

@@ -165,8 +165,8 @@ PostureStudy study_postures(const setup::Setup& source, const PostureQuestions& 
                             const StageListener& listener) {
   Stages stages(listener);
   const setup::TabledRobot robot = tapped_robot(source);
-  PostureStudy study{
-      robot.tapped->names, robot.postures->over, setup::names_of(setup::tip_dofs(robot)), robot.tapped->places, {}};
+  PostureStudy study{robot.tapped->names,  robot.postures->over, setup::names_of(setup::tip_dofs(robot)),
+                     robot.tapped->places, asked_place(robot),   {}};
   study.doubts = setup::doubts_about(robot);
   study.chart_rpm = chart_speeds(source);
   std::optional<posture::PostureCut> cut = cut_of(source, robot, study.notes);

@@ -47,6 +47,7 @@ struct PostureStudy {
   std::vector<std::string> over;   ///< the columns
   std::vector<std::string> dofs;   ///< of the tip: responses and forces
   Eigen::MatrixXd places;          ///< of the postures, a row each
+  Eigen::RowVectorXd asked;        ///< robot.at
   std::vector<posture::TappedPosture> postures;
   std::optional<double> spindle_speed_rpm{};  ///< of depths; none: no cut by the robot
   std::optional<posture::HeldOut> held_out{};
