@@ -55,7 +55,7 @@ function answer({ figures: { map, postures, modes, spindle_speed_rpm: speed }, m
 
 function mapLead({ map, over }) {
   const depth = map && isNumber(map.least_depth_m);
-  return `${depth ? 'The deepest cut without chatter' : 'The lowest frequency'} at ${map.places} places between the tapped postures${over.length > 2 ? `, of which a cut is shown: two of ${over.length} coordinates are its axes, the others are fixed` : ''}. The range beneath a value holds the true one in 95 of 100 cases, by what is not known from the taps.`;
+  return `${depth ? 'The deepest cut without chatter' : 'The lowest frequency'} at ${map.places} places between the tapped postures${over.length > 2 ? `, of which one slice is shown: two of ${over.length} coordinates are its axes, the others are fixed` : ''}. The range beneath a value holds the true one in 95 of 100 cases, by what is not known from the taps.`;
 }
 
 function nextLead({ next }) {

@@ -1,4 +1,4 @@
-// The map of a robot over its workspace: a cut through the columns of its postures, as cells with values and intervals, or as a line where there is one column.
+// The map of a robot over its workspace: a slice through the columns of its postures, as cells with values and intervals, or as a line where there is one column.
 
 import { faint, viridisScale } from './colours.js';
 import { numbers } from './decode.js';
@@ -42,15 +42,15 @@ export function workspace(found) {
   axes.append(...(over.length > 2 ? [axis('x', 'y'), axis('y', 'x')] : []));
   slices.append(...slicesOf(grid, state, chart.draw));
   return { chart, content: [el('div', { class: 'controls' }, choice('Show', [...list].map(([key, { title }]) => [key, title]), state.show, (v) => { state.show = v; chart.draw(); }), axes, slices), chart.figure,
-    over.length > 2 && el('p', { class: 'note' }, 'Circles are tapped postures near this cut through the workspace; without a colour are places beyond the tapped postures.')] };
+    over.length > 2 && el('p', { class: 'note' }, 'Circles are tapped postures near this slice through the workspace; places without a colour lie beyond the tapped postures.')] };
 }
 
 /** A choice of the value of each column that is no axis. */
 const slicesOf = ({ lines, over }, state, draw) => over.map((name, c) => [name, c]).filter(([, c]) => c !== state.x && c !== state.y)
   .map(([name, c]) => choice(`at ${name}`, lines[c].map((v, i) => [i, number(v, 4)]), state.at[c], (i) => { state.at[c] = Number(i); draw(); }));
 
-/** Whether a place lies in the cut that is shown, within half a step of the grid. */
-function inCut({ lines }, state, place) {
+/** True of a place in the slice that is shown, within half a step of the grid. */
+function inSlice({ lines }, state, place) {
   return lines.every((values, c) => c === state.x || c === state.y || nearest(values, place[c]) === state.at[c]);
 }
 
@@ -59,11 +59,11 @@ function build(found, grid, quantity, state, colours, narrow) {
   return state.y === null ? line(grid, quantity, spots, colours, narrow) : cells(grid, quantity, state, spots, narrow);
 }
 
-/** The cut as cells. Colours are the same in every cut. */
+/** The slice as cells. Colours are the same in every slice. */
 function cells({ places, lines, over }, { title, unit, of }, state, spots, narrow) {
   const [x, y] = [lines[state.x], lines[state.y]];
   const shown = y.map(() => x.map(() => null));
-  places.forEach((place, i) => { if (inCut({ lines }, state, place)) shown[y.indexOf(place[state.y])][x.indexOf(place[state.x])] = of[i]; });
+  places.forEach((place, i) => { if (inSlice({ lines }, state, place)) shown[y.indexOf(place[state.y])][x.indexOf(place[state.x])] = of[i]; });
   const values = of.map(([v]) => v).filter(Number.isFinite);
   const [least, most] = [values.reduce((a, b) => Math.min(a, b), Infinity), values.reduce((a, b) => Math.max(a, b), -Infinity)];
   const heat = { type: 'heatmap', x, y, z: shown.map((row) => row.map((cell) => cell?.[0] ?? null)), zmin: least, zmax: most, colorscale: viridisScale, xgap: 2, ygap: 2, meta: 'map', hoverongaps: false,
@@ -78,8 +78,9 @@ function cells({ places, lines, over }, { title, unit, of }, state, spots, narro
 /** The value of each cell and its interval, beneath the cell's middle, where a mark may stand; in the ink that its colour calls for. */
 function cellTexts(x, y, shown, share, narrow) {
   const full = shown.flatMap((row, j) => row.map((cell, i) => ({ cell, x: x[i], y: y[j] })).filter(({ cell }) => Number.isFinite(cell?.[0])));
-  const text = ({ cell }) => `<span style="font-size:7px"> <br></span>${number(cell[0], 3)}` + (cell.length > 1 && !narrow && x.length <= 6 ? `<br><span style="font-size:11px">${between95(cell[1], cell[2], 1)}</span>` : '');
-  return { x: full.map((f) => f.x), y: full.map((f) => f.y), text: full.map(text), mode: 'text', textposition: 'bottom center', showlegend: false, hoverinfo: 'skip', meta: 'values',
+  const step = y.length > 1 ? y[1] - y[0] : 1;
+  const text = ({ cell }) => number(cell[0], 3) + (cell.length > 1 && !narrow && x.length <= 6 ? `<br><span style="font-size:11px">${between95(cell[1], cell[2], 1)}</span>` : '');
+  return { x: full.map((f) => f.x), y: full.map((f) => f.y - 0.06 * step), text: full.map(text), mode: 'text', textposition: 'bottom center', showlegend: false, hoverinfo: 'skip', meta: 'values',
     textfont: { size: narrow ? 10 : 14, color: full.map(({ cell }) => (share(cell[0]) > 0.5 ? '#101418' : '#ffffff')) } };
 }
 
@@ -91,12 +92,12 @@ function line({ places, over }, { title, unit, of }, spots, colours, narrow) {
   return { data: [...band, curve, ...spots], layout: { height: narrow ? 340 : 420, hovermode: 'closest', uirevision: title, xaxis: { title: plain(over[0]) }, yaxis: { title: `${title} (${unit})`, rangemode: 'tozero' } } };
 }
 
-/** The tapped postures of the cut, the posture that is asked for, and the one to tap next. On a line they stand at its foot. */
+/** The tapped postures of the slice, the posture that is asked for, and the one to tap next. On a line they stand at its foot. */
 function marks(found, grid, state, colours) {
   const { over, next } = found.figures;
   const spot = (name, list, marker) => (list.length ? [{ name, x: list.map((p) => p[state.x]), y: list.map((p) => (state.y === null ? 0 : p[state.y])), mode: 'markers', cliponaxis: false, marker,
     customdata: list.map((p) => plain(placeText(over, p))), hovertemplate: `${name}: %{customdata}<extra></extra>`, meta: name }] : []);
-  const tapped = rowsOf(found.places).filter((p) => inCut(grid, state, p));
+  const tapped = rowsOf(found.places).filter((p) => inSlice(grid, state, p));
   return [...spot('tapped', tapped, { symbol: 'circle', size: 7, color: colours.paper, line: { color: colours.ink, width: 1.3 } }),
     ...spot('asked for', found.asked.length ? [found.asked] : [], { symbol: 'star', size: 15, color: colours.supported, line: { color: colours.paper, width: 1.2 } }),
     ...spot('to tap next', next ? [next.at] : [], { symbol: 'diamond', size: 13, color: colours.mark, line: { color: colours.paper, width: 1.2 } })];

@@ -107,7 +107,7 @@ describe('the map of invented postures', { skip: given.length > 0 }, () => {
     await page.context().close();
   });
 
-  test('of three columns a cut is shown, which follows the choice of axes and of the third value', async () => {
+  test('of three columns a slice is shown, which follows the choice of axes and of the third value', async () => {
     const data = learned({ parts: ['map'] });
     const places = [[0, 0, 5], [1, 0, 5], [0, 1, 5], [0, 0, 7], [1, 1, 7]];
     const n = places.length;
