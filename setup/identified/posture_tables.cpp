@@ -131,7 +131,10 @@ std::filesystem::path table_of(const std::filesystem::path& pattern, const std::
 void read_tables(const TabledRobot& robot, PostureTables& read) {
   for (const std::string& name : read.names) {
     read.files.push_back(table_of(robot.table, name));
-    read.tables.push_back(read_tip_table(read.files.back(), robot));
+    TipTable tip = read_tip_table(read.files.back(), robot);
+    if (tip.condition > read.freed_condition) read.freed_worst = name;
+    read.freed_condition = std::max(read.freed_condition, tip.condition);
+    read.tables.push_back(std::move(tip.table));
     const auto dofs = names_of(read.tables.back().dofs), first = names_of(read.tables.front().dofs);
     if (dofs != first)
       refuse("table", read.files.back().string() + " has " + fmt::format("{}", fmt::join(dofs, ", ")) + ", " +
@@ -219,6 +222,10 @@ std::vector<std::string> doubts_about(const TabledRobot& robot) {
     doubts.push_back(std::to_string(robot.tapped->doubtful) +
                      " modes could not be followed over the postures without contradiction; what is learned of them is "
                      "less certain than told: tap postures between");
+  if (std::string doubt =
+          doubt_about_sensors(robot.tapped->freed_condition, "at posture \"" + robot.tapped->freed_worst + "\"");
+      !doubt.empty())
+    doubts.push_back(std::move(doubt));
   const ScaledPlaces scaled = scaled_places(robot);
   if (const double distance = posture::distance_from_hull(scaled.places, scaled.at); distance > 1e-9)
     doubts.push_back("robot.at lies " + core::number_text(50.0 * distance, 2) +

@@ -6,60 +6,21 @@
 
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <string>
 
-#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
 #include "robot/modal_table.hpp"
+#include "tests/robot/modes_of_matrices.hpp"
 
 namespace thinwall::robot::freed_table_test {
 namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-
-/// Two points along x and y, held by springs and dashpots that are neither proportional nor, with `servo`, symmetric.
-struct Structure {
-  MatrixXd M, D, K;
-};
-
-Structure structure(double servo) {
-  Structure s{MatrixXd(4, 4), MatrixXd(4, 4), MatrixXd(4, 4)};
-  s.M = Eigen::Vector4d(3.0, 4.0, 1.5, 2.0).asDiagonal();
-  s.K << 9e5, 1e5, -3e5, 0.0, 1e5, 7e5, 0.0, -2e5, -3e5, 0.0, 5e5, 5e4, 0.0, -2e5, 5e4, 6e5;
-  s.K(0, 1) += servo * 1e5;
-  s.D = 2e-4 * s.K;
-  s.D(0, 0) += 60.0;
-  s.D(3, 3) += 40.0;
-  return s;
-}
-
-/// Modes of M ẍ + D ẋ + K x = f by the eigenvectors of its state matrix, with velocities in units of `unit`.
-dynamics::ModalTable table_of(const Structure& s) {
-  const auto translation = dynamics::DofKind::translation;
-  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY();
-  dynamics::ModalTable table{
-      {{"1", x, translation}, {"1", y, translation}, {"a", x, translation}, {"a", y, translation}}, {}};
-  const Index n = s.M.rows();
-  const double unit = 500.0;  // rad/s, of the order of the frequencies: else the vectors lose digits
-  MatrixXd A = MatrixXd::Zero(2 * n, 2 * n);
-  A.topRightCorner(n, n) = unit * MatrixXd::Identity(n, n);
-  A.bottomLeftCorner(n, n) = -s.M.inverse() * s.K / unit;
-  A.bottomRightCorner(n, n) = -s.M.inverse() * s.D;
-  const Eigen::EigenSolver<MatrixXd> solver(A);
-  const Eigen::MatrixXcd Z = solver.eigenvectors(), W = Eigen::MatrixXcd(Z.inverse());
-  for (Index k = 0; k < 2 * n; ++k) {
-    const std::complex<double> pole = solver.eigenvalues()(k);
-    if (pole.imag() <= 0.0) continue;
-    const Eigen::VectorXcd left = (W.row(k).tail(n) * s.M.inverse()).transpose() / unit;
-    table.rows.push_back({"", std::abs(pole) / (2.0 * std::numbers::pi), -pole.real() / std::abs(pole),
-                          Z.col(k).head(n), left, Eigen::VectorXd::Zero(n)});
-  }
-  std::ranges::sort(table.rows, {}, &dynamics::ModalTableRow::frequency_hz);
-  return table;
-}
+using tests::Matrices;
+using tests::table_of;
+using tests::two_points;
 
 Eigen::MatrixXcd residue(const dynamics::ModalTableRow& row) {
   return row.right * row.left.transpose();
@@ -78,10 +39,10 @@ void expect_equal(const dynamics::ModalTable& found, const dynamics::ModalTable&
 /// The mass in the matrix comes off again, at either point, with and without reciprocity.
 TEST(FreedTable, IsThatOfTheMatricesWithoutTheMass) {
   for (const double servo : {0.0, 1.0}) {
-    const Structure bare = structure(servo);
+    const Matrices bare = two_points(servo);
     for (const double mass : {0.02, 0.5, 5.0}) {
       for (const int at : {0, 2}) {
-        Structure loaded = bare;
+        Matrices loaded = bare;
         loaded.M(at, at) += mass;
         loaded.M(at + 1, at + 1) += mass;
         expect_equal(without_point_mass(table_of(loaded), at == 0 ? "1" : "a", mass).table, table_of(bare));
@@ -92,8 +53,8 @@ TEST(FreedTable, IsThatOfTheMatricesWithoutTheMass) {
 
 /// Of both points one after the other, in either order.
 TEST(FreedTable, IsFreedOfSeveralMassesInAnyOrder) {
-  const Structure bare = structure(1.0);
-  Structure loaded = bare;
+  const Matrices bare = two_points(1.0);
+  Matrices loaded = bare;
   loaded.M += MatrixXd(Eigen::Vector4d(0.3, 0.3, 0.1, 0.1).asDiagonal());
   const dynamics::ModalTable with = table_of(loaded);
   expect_equal(without_point_mass(without_point_mass(with, "1", 0.3).table, "a", 0.1).table, table_of(bare));
@@ -102,8 +63,8 @@ TEST(FreedTable, IsFreedOfSeveralMassesInAnyOrder) {
 
 /// Of one mass m + M the share M/(m + M) stays: 1 − m φ², φ² = 1/(m + M).
 TEST(FreedTable, TellsHowMuchOfTheInertiaStays) {
-  const Structure bare = structure(0.0);
-  Structure loaded = bare;
+  const Matrices bare = two_points(0.0);
+  Matrices loaded = bare;
   const double mass = 12.0;
   loaded.M(0, 0) += mass;
   loaded.M(1, 1) += mass;
@@ -113,8 +74,8 @@ TEST(FreedTable, TellsHowMuchOfTheInertiaStays) {
 
 /// A table with few modes has the receptance of its own sum, freed line by line.
 TEST(FreedTable, HasTheReceptanceOfTheSumWithoutTheMass) {
-  const Structure bare = structure(1.0);
-  Structure loaded = bare;
+  const Matrices bare = two_points(1.0);
+  Matrices loaded = bare;
   loaded.M(0, 0) += 0.3;
   loaded.M(1, 1) += 0.3;
   dynamics::ModalTable with = table_of(loaded);
@@ -134,7 +95,7 @@ TEST(FreedTable, HasTheReceptanceOfTheSumWithoutTheMass) {
 }
 
 TEST(FreedTable, RefusesAMassThatIsMoreThanAllThatMoves) {
-  const dynamics::ModalTable table = table_of(structure(0.0));
+  const dynamics::ModalTable table = table_of(two_points(0.0));
   const auto told = [&](const std::string& point, double mass) {
     try {
       (void)without_point_mass(table, point, mass);
