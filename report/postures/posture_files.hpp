@@ -14,6 +14,7 @@ namespace thinwall::report {
 ///   errors.csv     a row a posture, mode and number: measured, predicted by the other folds, its deviation; alone from
 ///                  all other postures in closed form, its deviation
 ///   depths.csv     a row a posture: limiting depth with measured modes, predicted by the other folds, its band
+///   curve.csv      a row a number of postures: median errors of plain processes, and with an arm as the mean
 ///   sharing.csv    a row a mode and group of numbers: R² of each number alone and together, likelihoods
 ///   map.csv        a row a place: first frequency and depth with their bands
 ///   envelope.csv   a row a speed: depths of the low, of the high, and of all modes

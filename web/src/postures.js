@@ -1,6 +1,7 @@
 // The page of a robot that was tapped at some postures: its map, how far it is to be trusted, and the posture to tap next.
 
 import { numbers } from './decode.js';
+import { learningCurve } from './curve.js';
 import { el, table } from './dom.js';
 import { envelopeChart } from './envelope.js';
 import { hertz, isNumber, millimetres, number, percent, rpm } from './format.js';
@@ -18,11 +19,13 @@ export function posturesPage({ postures: found, title }) {
   const map = found.map && workspace(found);
   const errors = found.modes && heldOut(found);
   const envelope = found.envelope && envelopeChart(found.envelope, figures.envelope.split_hz);
-  for (const chart of [errors?.chart, envelope]) if (chart) later(chart.draw);
+  const curve = figures.curve && learningCurve(figures.curve);
+  for (const chart of [errors?.chart, curve?.chart, envelope]) if (chart) later(chart.draw);
   const sections = [
     section('map', 'Over the workspace', () => mapLead(figures), [map?.content]),
     section('next', 'The posture to tap next', () => nextLead(figures), [figures.next && candidates(found)]),
     section('held-out', 'Postures that were held out', () => heldOutLead(figures), [errors?.content, errors && modeTable(figures)]),
+    section('curve', 'How many postures', () => curveLead(figures), [curve?.content]),
     section('remarks', 'Doubts and remarks', () => 'What a user should know before the map is used.', [remarks(figures)]),
     section('envelope', 'Low and high modes', () => envelopeLead(figures, found), [envelope?.figure]),
     section('sharing', 'Learning together', () => sharingLead(figures), [figures.shared?.length && sharingTable(figures)]),
@@ -72,6 +75,13 @@ function candidates({ next, figures }) {
 
 function heldOutLead({ depths }) {
   return `Each posture was left out in its turn, learned nothing from, and predicted by the others: what the map is worth where nobody tapped.${depths ? ` Depths are off by ${percent(depths.median_error, 2)} in the median, and by ${percent(depths.largest_error, 2)} at ${depths.worst_posture}, the worst.` : ''} Bars are intervals of 95 %.`;
+}
+
+function curveLead({ curve: { tested, plain, with_arm: arm = [] } }) {
+  const key = isNumber(plain[0].depth_error) ? 'depth_error' : 'frequency_error';
+  const what = key === 'depth_error' ? 'depth' : 'frequency';
+  const at = (points) => `${percent(points[0][key], 2)} with ${points[0].postures} and ${percent(points.at(-1)[key], 2)} with ${points.at(-1).postures} of the others`;
+  return `${tested} postures were never learned from. Their ${what} is predicted with a median error of ${at(plain)}.${arm.length ? ` With the arm’s model, calibrated on the same taps, it is ${at(arm)}.` : ''} A curve that still falls says that more postures pay.`;
 }
 
 function modeTable({ modes }) {

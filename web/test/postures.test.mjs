@@ -42,7 +42,7 @@ for (const file of pages) {
 
     test('has the sections of what was asked, and no other', async () => {
       const ids = await page.locator('section').evaluateAll((list) => list.map((s) => s.id));
-      const wanted = { map: figures.map, next: figures.next, 'held-out': found.modes, envelope: figures.envelope, sharing: figures.shared?.length, modes: !found.modes };
+      const wanted = { map: figures.map, next: figures.next, 'held-out': found.modes, curve: figures.curve, envelope: figures.envelope, sharing: figures.shared?.length, modes: !found.modes };
       for (const [id, there] of Object.entries(wanted)) assert.equal(ids.includes(id), Boolean(there), id);
       assert.equal((await rows(page, 'Modes')).length, 1 + figures.modes.length);
     });
@@ -79,6 +79,15 @@ for (const file of pages) {
         const all = value === 'depth' ? found.depths.posture.shape[0] : found.modes.posture.shape[0];
         assert.equal(count('inside') + count('outside'), all);
         if (value === 'depth') assert.ok(Math.abs(count('inside') / all - figures.depths.covered) < 1e-9);
+      }
+    });
+
+    test('the learning curves are those of the figures', { skip: !figures.curve }, async () => {
+      const list = await traces(page, 'curve');
+      for (const [meta, points] of [['plain', figures.curve.plain], ['arm', figures.curve.with_arm]]) {
+        const trace = list.find((t) => t.meta === meta);
+        assert.deepEqual(trace?.x, points?.map((p) => p.postures));
+        points?.forEach((p, i) => assert.ok(Math.abs(trace.y[i] / (100 * (p.depth_error ?? p.frequency_error)) - 1) < 1e-9));
       }
     });
 

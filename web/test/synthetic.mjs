@@ -272,7 +272,7 @@ export function fitted({ coherence = true, shapes = true, warnings = ['the dampi
 }
 
 /** A robot tapped at 6 postures over two columns, of which one is called like HTML; `expected` has the map's depths in mm by place. With `cut: false` it has no depths. */
-export function learned({ cut = true, parts = ['errors', 'map', 'envelope', 'next', 'sharing'], doubts = ['2 modes could not be followed'] } = {}) {
+export function learned({ cut = true, parts = ['errors', 'curve', 'map', 'envelope', 'next', 'sharing'], doubts = ['2 modes could not be followed'] } = {}) {
   const over = ['<x>', 'kappa_deg'];
   const grid = [[0, 0], [0, 10], [1, 0], [1, 10], [2, 10]];
   const depth = grid.map(([x, k]) => 0.002 + 0.0005 * x + 0.00001 * k);
@@ -284,6 +284,7 @@ export function learned({ cut = true, parts = ['errors', 'map', 'envelope', 'nex
   const figures = { postures: 6, over, spindle_speed_rpm: cut ? 9000 : undefined, doubts, notes: ['1 mode is learned from 6 postures'],
     modes: [{ mode: 1, postures: 6, least_frequency_hz: 10, largest_frequency_hz: 12, numbers: has('errors') ? [number('ln_frequency', 0.002), number('ln_damping_ratio', 0.05)] : [] }],
     ...(has('errors') && cut ? { depths: { median_error: 0.05, ninetieth_error: 0.1, largest_error: 0.2, worst_posture: 'p3', covered: 0.5 } } : {}),
+    ...(has('curve') ? { curve: { tested: 2, plain: [[7, 0.02, 0.1], [14, 0.01, 0.05]].map(([postures, f, d]) => ({ postures, frequency_error: f, ...(cut ? { depth_error: d } : {}) })), ...(cut ? { with_arm: [{ postures: 7, frequency_error: 0.002, depth_error: 0.03 }, { postures: 14, frequency_error: 0.001, depth_error: 0.02 }] } : {}) } } : {}),
     ...(has('sharing') ? { shared } : {}),
     ...(has('map') ? { map: { places: 5, least_first_hz: 10, largest_first_hz: 12, ...(cut ? { least_depth_m: 0.002, least_depth_low_m: 0.0018, least_depth_high_m: 0.0024, largest_depth_m: 0.0031, least_depth_at: [0, 0] } : {}) } } : {}),
     ...(has('envelope') && cut ? { envelope: { split_hz: 100, least_low_m: 0.002, least_high_m: null, least_together_m: 0.0019 } } : {}),
