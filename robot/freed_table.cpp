@@ -47,6 +47,15 @@ States states_of(const ModalTable& table) {
 
 /// The translations of the point.
 std::vector<int> moved_dofs(const ModalTable& table, const std::string& point) {
+  const auto at_point = [&](const dynamics::Dof& dof) { return dof.point == point; };
+  if (std::ranges::none_of(table.dofs, at_point)) {
+    std::string points;
+    for (const dynamics::Dof& dof : table.dofs) {
+      if (points.find("\"" + dof.point + "\"") == std::string::npos)
+        points += (points.empty() ? "\"" : ", \"") + dof.point + "\"";
+    }
+    throw core::InputError("\"" + point + "\" is no point of the table of modes; it has " + points);
+  }
   std::vector<int> moved;
   for (const int row : dynamics::rows_of_point(table.dofs, point)) {
     if (table.dofs[static_cast<std::size_t>(row)].kind == dynamics::DofKind::translation) moved.push_back(row);

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <complex>
 #include <utility>
 
@@ -32,6 +33,7 @@ identification::FittedMode mode_of(const dynamics::ModalTableRow& row) {
 TipTable without_sensors(dynamics::ModalTable table, const TabledRobot& robot, const std::string& file) {
   TipTable tip{std::move(table)};
   for (const Sensor& sensor : robot.sensors) {
+    if (!std::isfinite(sensor.mass)) continue;  // a fault of the case that is told by itself
     try {
       robot::FreedTable freed = robot::without_point_mass(tip.table, sensor.point, sensor.mass);
       tip.table = std::move(freed.table);
