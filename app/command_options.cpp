@@ -108,6 +108,11 @@ void describe_fit(CLI::App& app, FitRequest& fit) {
   auto* command =
       app.add_subcommand("fit", "modes with their uncertainty from measured FRFs, as tables that a case reads");
   add_fit_input(command, fit.input);
+  command
+      ->add_option("--sensor", fit.sensors,
+                   "rigid mass at a point while all was measured, taken off before the fit, several times: \"1=30 g\"")
+      ->type_name("POINT=MASS")
+      ->allow_extra_args(false);
   command->add_option("--from", fit.from, "first frequency: \"20 Hz\" (default: all)")->type_name("FREQUENCY");
   command->add_option("--to", fit.to, "last frequency")->type_name("FREQUENCY");
   command
@@ -228,7 +233,7 @@ void describe_postures(CLI::App& app, Arguments& arguments) {
       "over the postures, first frequency and depth over the workspace, and the posture to tap next");
   add_case_arguments(*command, arguments);
   command->add_option("--out", arguments.out, "result folder (default: results/<case>)")->type_name("DIR");
-  command->add_option("--parts", postures.parts, "what is answered (default: errors,sharing,map,envelope,next)")
+  command->add_option("--parts", postures.parts, "what is answered (default: errors,curve,sharing,map,envelope,next)")
       ->type_name("PARTS");
   command
       ->add_option("--speed", postures.speed,

@@ -9,6 +9,7 @@
 
 #include "app/doctor.hpp"
 #include "app/fit_geometry.hpp"
+#include "app/fit_sensors.hpp"
 #include "core/error.hpp"
 #include "core/split.hpp"
 #include "core/units.hpp"
@@ -155,6 +156,7 @@ std::vector<std::string> words_of(const FitRequest& request) {
   add("--responses", input.responses);
   add("--forces", input.forces);
   add("--geometry", input.geometry);
+  for (const std::string& sensor : request.sensors) add("--sensor", sensor);
   add("--from", request.from);
   add("--to", request.to);
   for (const std::string& band : request.left_out) add("--exclude", band);
@@ -173,7 +175,8 @@ std::vector<std::string> words_of(const FitRequest& request) {
 std::string fit_files(const FitRequest& request) {
   require_other_files(request);
   identification::ResponseFitOptions options = options_of(request);
-  const FitMatrix matrix = fit_matrix(request.input);
+  FitMatrix matrix = fit_matrix(request.input);
+  const std::vector<std::string> sensor_doubts = free_of_sensors(matrix, request.sensors);
   report::FitReport found{matrix.measured, {}};
   check_weights(matrix, request, found.notes);
   if (!request.poles.empty()) {
@@ -184,6 +187,7 @@ std::string fit_files(const FitRequest& request) {
   found.fit = fitted(matrix, request, options, found.notes);
   if (found.diagram.empty()) found.diagram = found.fit.found.diagram;
   found.doubts = identification::doubts_about(found.fit, matrix.measured.responses, matrix.measured.forces, options);
+  found.doubts.insert(found.doubts.end(), sensor_doubts.begin(), sensor_doubts.end());
   found.notes.insert(found.notes.end(), matrix.notes.begin(), matrix.notes.end());
   found.coherence = matrix.coherence;
   found.sources = matrix.files;

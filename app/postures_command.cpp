@@ -1,5 +1,6 @@
 #include "app/postures_command.hpp"
 
+#include "app/doctor.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/split.hpp"
@@ -78,10 +79,11 @@ std::string study_postures(const cases::Case& source, const PosturesRequest& req
   StageDisplay stages(display);
   const study::PostureStudy found = study::study_postures(source, questions, stages.listener());
   const auto staging = core::partial_path(folder.path() / "postures");
-  report::write_posture_study(staging, found);
+  report::write_posture_study(staging, found, source.title, program_name());
   report::publish_folder(staging, folder.path() / "postures");
   return (source.title.empty() ? "" : source.title + "\n") + report::posture_text(report::summary_of(found)) +
-         "  tables    " + (folder.path() / "postures").string() + "\n";
+         "  tables    " + (folder.path() / "postures").string() + "\n" + "  page      " +
+         (folder.path() / "postures" / "postures.html").string() + "\n";
 }
 
 }  // namespace thinwall::app

@@ -13,7 +13,7 @@ namespace thinwall::app {
 
 /// The words of the command.
 struct PosturesRequest {
-  std::string parts = "errors,sharing,map,envelope,next";
+  std::string parts = "errors,curve,sharing,map,envelope,next";
   std::string speed;             ///< "9000 rpm", or best: of each place of the map; empty: the case's
   std::string split;             ///< "300 Hz"; empty: in the widest gap between the modes
   std::string path, candidates;  ///< CSV files with the columns of robot.over; empty: robot.at, the map's grid

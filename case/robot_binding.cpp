@@ -210,6 +210,7 @@ setup::RobotModel bind_model(const Table& table, const std::filesystem::path& fo
                                 table.text("left_unit"),
                                 table.text("right_unit"),
                                 table.flag("cross_terms"),
+                                bind_sensors(table.tables("sensors")),
                                 bind_base(table),
                                 bind_postures(table, folder),
                                 bind_mean(table, folder),

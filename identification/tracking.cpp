@@ -20,24 +20,35 @@ double mac(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
   return std::norm(a.dot(b)) / (a.squaredNorm() * b.squaredNorm());
 }
 
-Eigen::MatrixXd unlikeness_of(const std::vector<const FittedMode*>& a, const std::vector<FittedMode>& b) {
+/// A mode in one frame and, where it is known, in another.
+struct Seen {
+  const FittedMode* mode = nullptr;
+  const FittedMode* turned = nullptr;
+};
+
+using Modes = std::vector<Seen>;
+
+/// The lesser of the frames'.
+double unlikeness_of(const Seen& a, const Seen& b) {
+  const double plain = unlikeness(*a.mode, *b.mode);
+  return a.turned == nullptr ? plain : std::min(plain, unlikeness(*a.turned, *b.turned));
+}
+
+Eigen::MatrixXd unlikeness_of(const Modes& a, const Modes& b) {
   Eigen::MatrixXd cost(static_cast<Eigen::Index>(a.size()), static_cast<Eigen::Index>(b.size()));
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (std::size_t j = 0; j < b.size(); ++j)
-      cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = unlikeness(*a[i], b[j]);
+      cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = unlikeness_of(a[i], b[j]);
   }
   return cost;
 }
 
 /// The cost of the cheapest pairing of the modes of two postures; a mode without a partner costs as one that is most
 /// unlike.
-double difference(const std::vector<FittedMode>& a, const std::vector<FittedMode>& b) {
+double difference(const Modes& a, const Modes& b) {
   double sum = most_unlike * static_cast<double>(std::max(a.size(), b.size()) - std::min(a.size(), b.size()));
   if (a.empty() || b.empty()) return sum;
-  std::vector<const FittedMode*> of_a;
-  of_a.reserve(a.size());
-  for (const FittedMode& mode : a) of_a.push_back(&mode);
-  const Eigen::MatrixXd cost = unlikeness_of(of_a, b);
+  const Eigen::MatrixXd cost = unlikeness_of(a, b);
   const std::vector<int> pair = cheapest_pairing(cost);
   for (std::size_t i = 0; i < pair.size(); ++i)
     if (pair[i] >= 0) sum += std::min(most_unlike, cost(static_cast<Eigen::Index>(i), pair[i]));
@@ -45,7 +56,7 @@ double difference(const std::vector<FittedMode>& a, const std::vector<FittedMode
 }
 
 /// The differences of all pairs of postures.
-Eigen::MatrixXd differences(const std::vector<std::vector<FittedMode>>& postures) {
+Eigen::MatrixXd differences(const std::vector<Modes>& postures) {
   const auto n = static_cast<Eigen::Index>(postures.size());
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -88,22 +99,21 @@ Tree spanning_tree(const Eigen::MatrixXd& distance, Eigen::Index root) {
 }
 
 /// The modes of the labels that a posture's ancestors have, each of the nearest one.
-std::map<int, const FittedMode*> known_modes(const std::vector<std::vector<FittedMode>>& postures,
-                                             const Tracking& tracking, int ancestor) {
-  std::map<int, const FittedMode*> known;
+std::map<int, Seen> known_modes(const std::vector<Modes>& postures, const Tracking& tracking, int ancestor) {
+  std::map<int, Seen> known;
   for (; ancestor >= 0; ancestor = tracking.parent[static_cast<std::size_t>(ancestor)]) {
     const auto at = static_cast<std::size_t>(ancestor);
-    for (std::size_t k = 0; k < tracking.label[at].size(); ++k) known.emplace(tracking.label[at][k], &postures[at][k]);
+    for (std::size_t k = 0; k < tracking.label[at].size(); ++k) known.emplace(tracking.label[at][k], postures[at][k]);
   }
   return known;
 }
 
-void label(const std::vector<std::vector<FittedMode>>& postures, std::size_t at, Tracking& tracking) {
-  const std::vector<FittedMode>& modes = postures[at];
+void label(const std::vector<Modes>& postures, std::size_t at, Tracking& tracking) {
+  const Modes& modes = postures[at];
   std::vector<int>& labels = tracking.label[at];
   labels.assign(modes.size(), -1);
   std::vector<int> known_labels;
-  std::vector<const FittedMode*> known;
+  Modes known;
   for (const auto& [name, mode] : known_modes(postures, tracking, tracking.parent[at])) {
     known_labels.push_back(name);
     known.push_back(mode);
@@ -122,12 +132,12 @@ void label(const std::vector<std::vector<FittedMode>>& postures, std::size_t at,
 }
 
 /// Numbers the labels by the mean logarithm of their frequencies.
-void number(const std::vector<std::vector<FittedMode>>& postures, Tracking& tracking) {
+void number(const std::vector<Modes>& postures, Tracking& tracking) {
   std::vector<double> sum(static_cast<std::size_t>(tracking.labels), 0.0), count = sum;
   for (std::size_t i = 0; i < postures.size(); ++i) {
     for (std::size_t k = 0; k < postures[i].size(); ++k) {
       const auto name = static_cast<std::size_t>(tracking.label[i][k]);
-      sum[name] += std::log(postures[i][k].frequency_hz);
+      sum[name] += std::log(postures[i][k].mode->frequency_hz);
       count[name] += 1.0;
     }
   }
@@ -143,8 +153,7 @@ void number(const std::vector<std::vector<FittedMode>>& postures, Tracking& trac
 }
 
 /// Votes of the nearest postures on each label of a posture.
-void doubt(const std::vector<std::vector<FittedMode>>& postures, const Eigen::MatrixXd& distance, int neighbours,
-           Tracking& tracking) {
+void doubt(const std::vector<Modes>& postures, const Eigen::MatrixXd& distance, int neighbours, Tracking& tracking) {
   for (std::size_t i = 0; i < postures.size(); ++i) {
     std::vector<std::size_t> nearest(postures.size());
     std::iota(nearest.begin(), nearest.end(), std::size_t{0});
@@ -154,8 +163,7 @@ void doubt(const std::vector<std::vector<FittedMode>>& postures, const Eigen::Ma
     });
     std::vector<int> votes(postures[i].size(), 0);
     for (std::size_t k = 1; k < std::min(nearest.size(), static_cast<std::size_t>(neighbours) + 1); ++k) {
-      std::vector<const FittedMode*> of_other;
-      for (const FittedMode& mode : postures[nearest[k]]) of_other.push_back(&mode);
+      const Modes& of_other = postures[nearest[k]];
       if (of_other.empty() || postures[i].empty()) continue;
       const Eigen::MatrixXd cost = unlikeness_of(of_other, postures[i]);
       const std::vector<int> pair = cheapest_pairing(cost);
@@ -169,6 +177,30 @@ void doubt(const std::vector<std::vector<FittedMode>>& postures, const Eigen::Ma
   }
 }
 
+void require_vectors(const std::vector<std::vector<FittedMode>>& postures) {
+  for (std::size_t i = 0; i < postures.size(); ++i) {
+    for (const FittedMode& mode : postures[i]) {
+      if (mode.left.size() == 0 || mode.right.size() == 0)
+        throw core::InputError("tracking: a mode of posture " + std::to_string(i + 1) +
+                               " has no vectors; fit residues of rank one");
+    }
+  }
+}
+
+/// The modes in both frames. Throws InputError unless those of the second frame are as many.
+std::vector<Modes> seen_in_frames(const std::vector<std::vector<FittedMode>>& postures,
+                                  const std::vector<std::vector<FittedMode>>& turned) {
+  if (!turned.empty() &&
+      !std::ranges::equal(postures, turned, {}, &std::vector<FittedMode>::size, &std::vector<FittedMode>::size))
+    throw core::InputError("tracking: the second frame has not as many postures and modes as the first");
+  std::vector<Modes> seen(postures.size());
+  for (std::size_t i = 0; i < postures.size(); ++i) {
+    for (std::size_t k = 0; k < postures[i].size(); ++k)
+      seen[i].push_back({&postures[i][k], turned.empty() ? nullptr : &turned[i][k]});
+  }
+  return seen;
+}
+
 }  // namespace
 
 double unlikeness(const FittedMode& a, const FittedMode& b) {
@@ -177,15 +209,12 @@ double unlikeness(const FittedMode& a, const FittedMode& b) {
          0.5 * std::abs(std::log(a.damping_ratio / b.damping_ratio)) + 0.3 * std::abs(std::log(size_a / size_b));
 }
 
-Tracking track(const std::vector<std::vector<FittedMode>>& postures, int neighbours) {
-  if (postures.empty()) throw core::InputError("tracking: no posture, must be at least one");
-  for (std::size_t i = 0; i < postures.size(); ++i) {
-    for (const FittedMode& mode : postures[i]) {
-      if (mode.left.size() == 0 || mode.right.size() == 0)
-        throw core::InputError("tracking: a mode of posture " + std::to_string(i + 1) +
-                               " has no vectors; fit residues of rank one");
-    }
-  }
+Tracking track(const std::vector<std::vector<FittedMode>>& of_postures,
+               const std::vector<std::vector<FittedMode>>& turned, int neighbours) {
+  if (of_postures.empty()) throw core::InputError("tracking: no posture, must be at least one");
+  require_vectors(of_postures);
+  require_vectors(turned);
+  const std::vector<Modes> postures = seen_in_frames(of_postures, turned);
   const Eigen::MatrixXd distance = differences(postures);
   Eigen::Index middle = 0;
   distance.colwise().sum().minCoeff(&middle);
@@ -193,7 +222,7 @@ Tracking track(const std::vector<std::vector<FittedMode>>& postures, int neighbo
   Tracking tracking;
   tracking.label.resize(postures.size());
   tracking.parent = tree.parent;
-  for (const auto& modes : postures) tracking.doubtful.emplace_back(modes.size(), false);
+  for (const Modes& modes : postures) tracking.doubtful.emplace_back(modes.size(), false);
   for (const std::size_t at : tree.order) label(postures, at, tracking);
   number(postures, tracking);
   doubt(postures, distance, neighbours, tracking);

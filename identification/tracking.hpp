@@ -27,8 +27,11 @@ struct Tracking {
 /// the parent does not have is compared with the nearest ancestor that has it, so that a gap ends no label; one that is
 /// unlike all by more than 3 begins a new one. Then every posture's pairs with the `neighbours` postures that differ
 /// least are looked at: where more of them contradict a label than agree with it, it is doubtful. Labels are numbered
-/// by the mean frequency of their modes. Throws InputError for no posture or modes without vectors. Cost O(postures²
-/// modes³).
-[[nodiscard]] Tracking track(const std::vector<std::vector<FittedMode>>& postures, int neighbours = 6);
+/// by the mean frequency of their modes. `turned`: the same modes in another frame, such as that of the tip, in which
+/// those of a spindle hardly change while those of an arm do; two modes are as unlike as in the frame in which they are
+/// less. Throws InputError for no posture, modes without vectors or frames with another number of modes. Cost
+/// O(postures² modes³).
+[[nodiscard]] Tracking track(const std::vector<std::vector<FittedMode>>& postures,
+                             const std::vector<std::vector<FittedMode>>& turned = {}, int neighbours = 6);
 
 }  // namespace thinwall::identification

@@ -8,6 +8,7 @@
 #include "posture/calibration.hpp"
 #include "posture/held_out.hpp"
 #include "posture/hull.hpp"
+#include "posture/learning_curve.hpp"
 #include "posture/mode_targets.hpp"
 #include "posture/next_posture.hpp"
 #include "posture/predictor.hpp"

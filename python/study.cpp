@@ -272,13 +272,13 @@ void bind_study(py::module_& module) {
       "spindle_speed_rpm"_a = py::none(), "best_speed"_a = false, "grid"_a = 5, "folds"_a = 5, "path"_a = py::none(),
       "candidates"_a = py::none(), "split_hz"_a = py::none(),
       "A robot that was tapped at several postures (robot.postures). parts, all unless some are named: errors (at\n"
-      "postures that were held out), sharing (numbers learned alone and together), map (over the workspace), envelope\n"
-      "(of low and high modes), next (the posture to tap). A dict of the figures of postures.json and, as far as "
-      "asked\n"
-      "for, arrays: map_places, map_first_hz and map_depth_m (value, low and high of the band of 95 %), chart_rpm "
-      "with\n"
-      "low_modes_depth_m, high_modes_depth_m and all_modes_depth_m, candidates with reduction. path and candidates: a\n"
-      "row a place, as robot.over has them.");
+      "postures that were held out), curve (errors over the number of postures), sharing (numbers learned alone and\n"
+      "together), map (over the workspace), envelope (of low and high modes), next (the posture to tap). A dict of "
+      "the\n"
+      "figures of postures.json and, as far as asked for, arrays: map_places, map_first_hz and map_depth_m (value, "
+      "low\n"
+      "and high of the band of 95 %), chart_rpm with low_modes_depth_m, high_modes_depth_m and all_modes_depth_m,\n"
+      "candidates with reduction. path and candidates: a row a place, as robot.over has them.");
 }
 
 }  // namespace thinwall::python

@@ -6,6 +6,7 @@
 #include "robot/arm_kinematics.hpp"
 #include "robot/feed_motion.hpp"
 #include "robot/flexible_joints.hpp"
+#include "robot/freed_table.hpp"
 #include "robot/inverse_kinematics.hpp"
 #include "robot/measured.hpp"
 #include "robot/modal_table.hpp"

@@ -80,6 +80,8 @@ struct PostureTables {
   std::vector<dynamics::ModalTable> tables;
   std::vector<std::vector<int>> labels;  ///< of each posture and mode: modes of one label are one mode of the robot
   int doubtful = 0;                      ///< labels that neighbours contradict
+  double freed_condition = 1.0;          ///< largest of TipTable, of the posture `freed_worst`
+  std::string freed_worst{};
 };
 
 /// The uncertainty of modes that were learned.
@@ -93,6 +95,7 @@ struct TabledRobot {
   std::filesystem::path table;  ///< of postures with "{posture}" where the name of each is to stand
   std::string table_point, left_unit, right_unit;
   bool cross_terms = true;
+  std::vector<Sensor> sensors = {};                        ///< while the table was tapped; points as it has them
   Eigen::Isometry3d base = Eigen::Isometry3d::Identity();  ///< whose axes are those of the table; world: the part's
   std::optional<TappedPostures> postures = {};             ///< none: the table is of the posture that is asked for
   std::optional<JointedRobot> mean = {};  ///< of `postures`: an arm whose modes, once it is calibrated, are the mean of

@@ -8,6 +8,7 @@
 
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
+#include "core/messages.hpp"
 #include "core/overloaded.hpp"
 #include "dynamics/conversion.hpp"
 #include "io/frf/resample.hpp"
@@ -172,7 +173,10 @@ void read_table_of_modes(TabledRobot& robot) {
     robot.tapped = std::make_shared<const PostureTables>(read_posture_tables(robot));
     return;
   }
-  robot.table_modes = std::make_shared<const dynamics::ModalTable>(read_tip_table(robot.table, robot));
+  TipTable tip = read_tip_table(robot.table, robot);
+  if (const std::string doubt = doubt_about_sensors(tip.condition, "in " + robot.table.string()); !doubt.empty())
+    core::warn(doubt);
+  robot.table_modes = std::make_shared<const dynamics::ModalTable>(std::move(tip.table));
 }
 
 robot::TipModel tip_model(const Robot& robot, const dynamics::FrequencyAxis& axis) {

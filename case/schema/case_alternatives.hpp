@@ -54,7 +54,7 @@ inline constexpr Belonging case_belongings[] = {
     {"robot.damping", "robot.model", "one_mode"},
     {"robot.modes[]", "robot.model", "modes", belongings::needed},
     {"robot.measured[]", "robot.model", "measured", belongings::needed},
-    {"robot.sensors[]", "robot.model", "measured"},
+    {"robot.sensors[]", "robot.model", "measured|modal_table"},
     {"robot.table", "robot.model", "modal_table", belongings::needed},
     {"robot.postures", "robot.model", "modal_table"},
     {"robot.over", "robot.model", "modal_table"},

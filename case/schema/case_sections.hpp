@@ -48,7 +48,10 @@ inline constexpr Section case_sections[] = {
             "FRFs of a measured robot: one along `direction`, or several between the tip's x, "
             "y, z.",
             ""},
-    Section{"robot.sensors[]", "Accelerometers on the measured robot, likewise.", ""},
+    Section{"robot.sensors[]",
+            "Accelerometers on the measured robot, likewise; or, of tables of modes, whatever rigid mass sat there "
+            "when they were tapped, as a tool that was left in.",
+            ""},
     Section{"robot.links[]",
             "An arm's links from the base to the tip, each with the joint that carries it. At angle 0 a link's frame "
             "is its joint's.",

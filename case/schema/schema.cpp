@@ -234,8 +234,8 @@ constexpr Key case_keys[] = {
     Key{"robot.measured[].averages", Type::integer, kind::number, "", {1, 1e6, false, false, false, "an average is of one measurement or more"}, "", "In place of `noise`: the number of averages behind the file's coherence, from which the noise follows."},
     Key{"robot.measured[].from", Type::quantity, kind::frequency, "", not_negative, "", "First line that is used; if not given the first that is believed (docs/theory/measured-frfs.md)."},
     Key{"robot.measured[].to", Type::quantity, kind::frequency, "", positive, "", "Last line that is used; if not given the last that is believed."},
-    Key{"robot.sensors[].at", Type::name, kind::number, "", any, "", "Measured point, `R`.", required},
-    Key{"robot.sensors[].mass", Type::quantity, kind::mass, "", sensor_mass, "", "Its mass, with what holds it on and moves with it.", required},
+    Key{"robot.sensors[].at", Type::name, kind::number, "", any, "", "Measured point, `R`; of a table of modes as the table has it, `1`.", required},
+    Key{"robot.sensors[].mass", Type::quantity, kind::mass, "", ridden_mass, "", "Its mass, with what holds it on and moves with it.", required},
 
     Key{"contacts[].part", Type::name, kind::number, "", any, "", "Point of the part.", required},
     Key{"contacts[].robot", Type::name, kind::number, "\"R\"", any, "", "Point of the robot."},

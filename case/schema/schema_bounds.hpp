@@ -14,6 +14,7 @@ inline constexpr Bounds not_negative{0.0, infinity, false, false, false, ""};
 inline constexpr Bounds at_least_one{1.0, 1e6, false, false, false, ""};
 inline constexpr Bounds fraction{0.0,   1.0,   false,
                                  false, false, "a fraction of the box, 0 at one face and 1 at the other"};
+inline constexpr Bounds ridden_mass{0.0, 100.0, true, false, false, "for grams write the unit: \"5 g\""};
 inline constexpr Bounds sensor_mass{0.0, 1.0, true, false, false, "for grams write the unit: \"5 g\""};
 inline constexpr Bounds damping_ratio{0.0, 1.0, false, true, false, "a ratio to critical damping: 1 % is 0.01"};
 inline constexpr Bounds density_bounds{100.0, 25000.0, false,

@@ -6,9 +6,12 @@
 #include <numeric>
 #include <utility>
 
+#include "core/atomic_file.hpp"
 #include "io/json_file.hpp"
 #include "io/results/csv_table.hpp"
 #include "posture/mode_targets.hpp"
+#include "report/page/page.hpp"
+#include "report/postures/posture_page.hpp"
 #include "report/postures/posture_summary.hpp"
 #include "report/summary/write_json.hpp"
 
@@ -120,6 +123,22 @@ void write_depths(const std::filesystem::path& file, const study::PostureStudy& 
                     "between low and high"});
 }
 
+void write_curve(const std::filesystem::path& file, const study::PostureStudy& study) {
+  if (!study.curves) return;
+  Rows rows;
+  const auto add = [&](const char* mean, const std::vector<posture::LearningPoint>& curve) {
+    for (const posture::LearningPoint& at : curve) {
+      rows.word("mean", mean);
+      rows.number("postures", at.postures);
+      rows.number("frequency_error", at.frequency_error);
+      if (at.depth_error) rows.number("depth_error", *at.depth_error);
+    }
+  };
+  add("none", study.curves->plain);
+  add("arm", study.curves->with_arm);
+  rows.write(file, {"Median relative errors at postures that were not learned from, by the number of those that were"});
+}
+
 void write_sharing(const std::filesystem::path& file, const study::PostureStudy& study) {
   const Eigen::Index entries = std::ssize(study.dofs) * std::ssize(study.dofs);
   Rows rows;
@@ -186,16 +205,19 @@ void write_next(const std::filesystem::path& file, const study::PostureStudy& st
 
 }  // namespace
 
-void write_posture_study(const std::filesystem::path& folder, const study::PostureStudy& study) {
+void write_posture_study(const std::filesystem::path& folder, const study::PostureStudy& study,
+                         const std::string& title, const std::string& program) {
   std::filesystem::create_directories(folder);
   write_modes(folder / "modes.csv", study);
   write_errors(folder / "errors.csv", study);
   write_depths(folder / "depths.csv", study);
+  write_curve(folder / "curve.csv", study);
   write_sharing(folder / "sharing.csv", study);
   write_map(folder / "map.csv", study);
   write_envelope(folder / "envelope.csv", study);
   write_next(folder / "next.csv", study);
   io::write_json(folder / "postures.json", json_of(summary_of(study)));
+  core::write_file_atomically(folder / "postures.html", page(posture_document(study, title, program)));
 }
 
 }  // namespace thinwall::report

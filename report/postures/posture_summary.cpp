@@ -84,6 +84,12 @@ std::optional<DepthErrorSummary> depth_errors(const study::PostureStudy& study) 
   return summary;
 }
 
+std::vector<LearningPointSummary> points_of(const std::vector<posture::LearningPoint>& curve) {
+  std::vector<LearningPointSummary> points;
+  for (const posture::LearningPoint& at : curve) points.push_back({at.postures, at.frequency_error, at.depth_error});
+  return points;
+}
+
 std::vector<double> row_of(const Eigen::MatrixXd& places, Eigen::Index row) {
   const Eigen::RowVectorXd place = places.row(row);
   return {place.begin(), place.end()};
@@ -118,6 +124,8 @@ LearnedRobotSummary summary_of(const study::PostureStudy& study) {
   LearnedRobotSummary summary{static_cast<int>(study.names.size()), study.over, study.spindle_speed_rpm};
   summary.modes = followed_modes(study);
   summary.depths = depth_errors(study);
+  if (study.curves)
+    summary.curve = {study.curves->tested, points_of(study.curves->plain), points_of(study.curves->with_arm)};
   for (const posture::SharedTasks& tasks : study.shared)
     summary.shared.push_back({tasks.label + 1, tasks.group, tasks.sharing(), tasks.R2_alone.mean(),
                               tasks.R2_together.mean(), tasks.ln_p_alone, tasks.ln_p_together});

@@ -69,6 +69,36 @@ void fields(Visitor& visit, Section& error) {
   visit(Field{"covered", Kind::ratio, "share of the depths within their bands of 95 %"}, error.covered);
 }
 
+/// Medians of the errors at postures that were not learned from, over the number of others.
+struct LearningPointSummary {
+  int postures = 0;
+  double frequency_error = 0.0;
+  std::optional<double> depth_error{};
+};
+
+template <class Visitor, Either<LearningPointSummary> Section>
+void fields(Visitor& visit, Section& point) {
+  visit(Field{"postures", Kind::count, "postures that are learned from"}, point.postures);
+  visit(Field{"frequency_error", Kind::ratio, "median relative error of a frequency"}, point.frequency_error);
+  visit(Field{"depth_error", Kind::ratio, "median relative error of a limiting depth; absent: no cut by the robot"},
+        point.depth_error);
+}
+
+/// The learning curves.
+struct LearningCurveSummary {
+  int tested = 0;
+  std::vector<LearningPointSummary> plain{}, with_arm{};
+};
+
+template <class Visitor, Either<LearningCurveSummary> Section>
+void fields(Visitor& visit, Section& curve) {
+  visit(Field{"tested", Kind::count, "postures that are never learned from"}, curve.tested);
+  visit(Field{"plain", Kind::section, "errors by number of postures, of plain processes"}, curve.plain);
+  visit(Field{"with_arm", Kind::section, "with an arm as the mean, calibrated on the same postures; absent: no arm",
+              Presence::if_any},
+        curve.with_arm);
+}
+
 /// Numbers of a mode that are learned alone and together.
 struct SharedTasksSummary {
   int mode = 0;
@@ -148,6 +178,7 @@ struct LearnedRobotSummary {
   std::optional<double> spindle_speed_rpm;
   std::vector<FollowedModeSummary> modes{};
   std::optional<DepthErrorSummary> depths{};
+  std::optional<LearningCurveSummary> curve{};
   std::vector<SharedTasksSummary> shared{};
   std::optional<WorkspaceMapSummary> map{};
   std::optional<EnvelopeSummary> envelope{};
@@ -165,6 +196,7 @@ void fields(Visitor& visit, Section& robot) {
   visit(
       Field{"depths", Kind::section, "errors of limiting depths at postures that were held out; absent: not asked for"},
       robot.depths);
+  visit(Field{"curve", Kind::section, "errors over the number of postures; absent: not asked for"}, robot.curve);
   visit(Field{"shared", Kind::section, "numbers learned alone and together; absent: not asked for", Presence::if_any},
         robot.shared);
   visit(Field{"map", Kind::section, "the map over the workspace; absent: not asked for"}, robot.map);

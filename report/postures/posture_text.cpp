@@ -63,6 +63,25 @@ std::string depth_line(const LearnedRobotSummary& robot) {
       percent(depth.largest_error), depth.worst_posture, percent(depth.covered));
 }
 
+std::string curve_lines(const LearnedRobotSummary& robot) {
+  if (!robot.curve) return "";
+  std::string text = fmt::format("  learning  errors at {} postures, by the number of others that are learned from:\n",
+                                 robot.curve->tested);
+  const auto line = [&](const char* what, const std::vector<LearningPointSummary>& curve) {
+    if (curve.empty()) return;
+    text += fmt::format("            {:<9}", what);
+    for (const LearningPointSummary& at : curve) {
+      text += fmt::format("  {}: {} of f", at.postures, percent(at.frequency_error));
+      if (at.depth_error) text += fmt::format(", {} of depth", percent(*at.depth_error));
+      text += ";";
+    }
+    text.back() = '\n';
+  };
+  line("plain", robot.curve->plain);
+  line("with arm", robot.curve->with_arm);
+  return text;
+}
+
 std::string group_words(posture::NumberGroup group) {
   switch (group) {
     case posture::NumberGroup::frequency_and_damping:
@@ -123,8 +142,8 @@ std::string next_line(const LearnedRobotSummary& robot) {
 
 std::string posture_text(const LearnedRobotSummary& robot) {
   std::string text = fmt::format("  postures  {} over {}\n", robot.postures, fmt::join(robot.over, ", "));
-  text += mode_table(robot) + depth_line(robot) + sharing_lines(robot) + map_lines(robot) + envelope_line(robot) +
-          next_line(robot);
+  text += mode_table(robot) + depth_line(robot) + curve_lines(robot) + sharing_lines(robot) + map_lines(robot) +
+          envelope_line(robot) + next_line(robot);
   for (const std::string& note : robot.notes) text += "  note      " + note + "\n";
   for (const std::string& doubt : robot.doubts) text += "  warning   " + doubt + "\n";
   return text;

@@ -12,9 +12,12 @@
 #include "core/units.hpp"
 #include "identification/tracking.hpp"
 #include "io/csv_text.hpp"
+#include "posture/arm_modes.hpp"
 #include "posture/hull.hpp"
+#include "posture/mode_targets.hpp"
 #include "posture/predictor.hpp"
 #include "robot/modal_table.hpp"
+#include "setup/identified/arm_mean.hpp"
 
 namespace thinwall::setup {
 
@@ -131,7 +134,10 @@ std::filesystem::path table_of(const std::filesystem::path& pattern, const std::
 void read_tables(const TabledRobot& robot, PostureTables& read) {
   for (const std::string& name : read.names) {
     read.files.push_back(table_of(robot.table, name));
-    read.tables.push_back(read_tip_table(read.files.back(), robot));
+    TipTable tip = read_tip_table(read.files.back(), robot);
+    if (tip.condition > read.freed_condition) read.freed_worst = name;
+    read.freed_condition = std::max(read.freed_condition, tip.condition);
+    read.tables.push_back(std::move(tip.table));
     const auto dofs = names_of(read.tables.back().dofs), first = names_of(read.tables.front().dofs);
     if (dofs != first)
       refuse("table", read.files.back().string() + " has " + fmt::format("{}", fmt::join(dofs, ", ")) + ", " +
@@ -140,11 +146,43 @@ void read_tables(const TabledRobot& robot, PostureTables& read) {
   }
 }
 
+/// The turn of the vectors at all points of a table into the tip's frame, for an arm that stands at q.
+posture::Turn turn_of_table(const TabledRobot& robot, const dynamics::DofTable& dofs, const Eigen::VectorXd& q) {
+  posture::Turn turn{Eigen::MatrixXd::Zero(std::ssize(dofs), std::ssize(dofs)), {}};
+  for (const dynamics::Dof& dof : dofs) {
+    const std::vector<int> rows = dynamics::rows_of_point(dofs, dof.point);
+    dynamics::DofTable of_point;
+    for (const int row : rows) of_point.push_back(dofs[static_cast<std::size_t>(row)]);
+    turn.responses(rows, rows) = posture::tip_turn(tapped_arm(robot, of_point), q).responses;
+  }
+  turn.references = turn.responses;
+  return turn;
+}
+
+using ModesOfPostures = std::vector<std::vector<identification::FittedMode>>;
+
+/// The modes in the tip's frame, in which those of a spindle hardly change; empty without an arm that tells it, and
+/// where the tip tilts out of the directions that were tapped.
+ModesOfPostures in_tip_frame(const TabledRobot& robot, const PostureTables& read, const ModesOfPostures& seen) {
+  if (!robot.mean || read.joints.cols() != robot.mean->arm.joints()) return {};
+  ModesOfPostures turned(seen.size());
+  try {
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      const posture::Turn turn =
+          turn_of_table(robot, read.tables[i].dofs, read.joints.row(static_cast<Eigen::Index>(i)).transpose());
+      for (const identification::FittedMode& mode : seen[i]) turned[i].push_back(posture::turned(mode, turn));
+    }
+  } catch (const core::InputError&) {
+    return {};
+  }
+  return turned;
+}
+
 /// Follows the modes by the shapes at all points, which tell them apart better than the tip's alone.
-void follow_modes(PostureTables& read) {
-  std::vector<std::vector<identification::FittedMode>> seen;
+void follow_modes(const TabledRobot& robot, PostureTables& read) {
+  ModesOfPostures seen;
   for (std::size_t i = 0; i < read.tables.size(); ++i) seen.push_back(modes_of(read.tables[i], read.files[i].string()));
-  const identification::Tracking tracking = identification::track(seen);
+  const identification::Tracking tracking = identification::track(seen, in_tip_frame(robot, read, seen));
   read.labels = tracking.label;
   for (const std::vector<bool>& of : tracking.doubtful) read.doubtful += static_cast<int>(std::ranges::count(of, true));
 }
@@ -172,7 +210,7 @@ PostureTables read_posture_tables(const TabledRobot& robot) {
   PostureTables read;
   read_for("postures", [&] { read_list(robot, read); });
   read_for("table", [&] { read_tables(robot, read); });
-  read_for("table", [&] { follow_modes(read); });
+  read_for("table", [&] { follow_modes(robot, read); });
   if (count_of(read).enough == 0)
     refuse("postures", "no mode was seen at enough of the " + std::to_string(read.names.size()) + " postures of " +
                            robot.postures->list.string() + " to be learned; tap more");
@@ -219,6 +257,10 @@ std::vector<std::string> doubts_about(const TabledRobot& robot) {
     doubts.push_back(std::to_string(robot.tapped->doubtful) +
                      " modes could not be followed over the postures without contradiction; what is learned of them is "
                      "less certain than told: tap postures between");
+  if (std::string doubt =
+          doubt_about_sensors(robot.tapped->freed_condition, "at posture \"" + robot.tapped->freed_worst + "\"");
+      !doubt.empty())
+    doubts.push_back(std::move(doubt));
   const ScaledPlaces scaled = scaled_places(robot);
   if (const double distance = posture::distance_from_hull(scaled.places, scaled.at); distance > 1e-9)
     doubts.push_back("robot.at lies " + core::number_text(50.0 * distance, 2) +

@@ -11,7 +11,8 @@
 namespace thinwall::setup {
 
 /// Reads the list of `robot.postures` and the table of each, and follows the modes over the postures by the shapes at
-/// all points (identification::track()). Throws TabledRobotError: for a robot without postures, a table without
+/// all points (identification::track()), with an arm as the mean in the tip's frame, too. Throws TabledRobotError: for
+/// a robot without postures, a table without
 /// "{posture}" in its name, columns and numbers that are not as many, a name of a posture that stands twice, a column
 /// that is missing or does not vary, two postures at one place, tables with different DOFs, a mode that moves nothing,
 /// modes that were all seen at too few postures, and files that io::read_csv_text() or io::read_modal_table() refuses.

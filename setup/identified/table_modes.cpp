@@ -4,12 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <complex>
 #include <utility>
 
 #include "core/units.hpp"
 #include "identification/fitted_model.hpp"
 #include "io/frf/modal_table_csv.hpp"
+#include "robot/freed_table.hpp"
 
 namespace thinwall::setup {
 
@@ -28,9 +30,24 @@ identification::FittedMode mode_of(const dynamics::ModalTableRow& row) {
   return mode;
 }
 
+TipTable without_sensors(dynamics::ModalTable table, const TabledRobot& robot, const std::string& file) {
+  TipTable tip{std::move(table)};
+  for (const Sensor& sensor : robot.sensors) {
+    if (!std::isfinite(sensor.mass)) continue;  // a fault of the case that is told by itself
+    try {
+      robot::FreedTable freed = robot::without_point_mass(tip.table, sensor.point, sensor.mass);
+      tip.table = std::move(freed.table);
+      tip.condition *= freed.condition;
+    } catch (const core::InputError& error) {
+      throw TabledRobotError("sensors", core::InputError(file + ": " + error.what()));
+    }
+  }
+  return tip;
+}
+
 }  // namespace
 
-dynamics::ModalTable read_tip_table(const std::filesystem::path& file, const TabledRobot& robot) {
+TipTable read_tip_table(const std::filesystem::path& file, const TabledRobot& robot) {
   dynamics::ModalTable table =
       io::read_modal_table(file, {io::modal_unit(robot.left_unit), io::modal_unit(robot.right_unit), {}});
   std::vector<std::string> points;
@@ -43,7 +60,14 @@ dynamics::ModalTable read_tip_table(const std::filesystem::path& file, const Tab
                                             "; it has \"" + fmt::format("{}", fmt::join(points, "\", \"")) + "\""));
   for (dynamics::ModalTableRow& row : table.rows)
     row.place_m(dynamics::rows_of_point(table.dofs, robot.table_point)).setZero();
-  return table;
+  return without_sensors(std::move(table), robot, file.string());
+}
+
+std::string doubt_about_sensors(double condition, const std::string& where) {
+  constexpr double most = 10.0;
+  if (condition <= most) return "";
+  return "the mass of the sensors is most of what moves: without it, errors of the modes grow " +
+         core::number_text(condition, 2) + " times " + where + "; tap with lighter sensors";
 }
 
 std::vector<identification::FittedMode> modes_of(const dynamics::ModalTable& table, const std::string& file) {

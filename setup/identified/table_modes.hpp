@@ -14,16 +14,27 @@
 namespace thinwall::setup {
 
 /// A fault of a robot that is known by tables, and the key of the robot that is at fault: "table", "table_point",
-/// "postures", "over", "at", "joint_columns".
+/// "postures", "over", "at", "joint_columns", "sensors".
 struct TabledRobotError : core::Error {
   TabledRobotError(std::string key_at_fault, const core::Error& fault)
       : core::Error(fault.code(), fault.what()), key(std::move(key_at_fault)) {}
   std::string key;
 };
 
-/// Reads a table of modes in the units of the robot, with its tip at one place. Throws TabledRobotError for a file
-/// without the tip's point, and errors as io::modal_unit() and io::read_modal_table().
-[[nodiscard]] dynamics::ModalTable read_tip_table(const std::filesystem::path& file, const TabledRobot& robot);
+/// The modes of a tip without the sensors with which they were found.
+struct TipTable {
+  dynamics::ModalTable table;
+  double condition = 1.0;  ///< by which errors of the file's modes grow (robot::FreedTable), product over the sensors
+};
+
+/// Reads a table of modes in the units of the robot, with its tip at one place, and frees it of the robot's sensors
+/// (robot::without_point_mass()). Throws TabledRobotError for a file without the tip's point and for a mass that cannot
+/// be taken off, and errors as io::modal_unit() and io::read_modal_table().
+[[nodiscard]] TipTable read_tip_table(const std::filesystem::path& file, const TabledRobot& robot);
+
+/// A sentence on sensors that make errors of a table larger by more than a factor of ten; empty if they do not.
+/// `where`: "at posture \"p3\"" or the name of the file.
+[[nodiscard]] std::string doubt_about_sensors(double condition, const std::string& where);
 
 /// The rows of a table as an identification would give them: residue R Lᵀ, largest entry of the left vector 1. Throws
 /// DataError, with the file's name, for a mode that moves nothing.

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "setup/identified/arm_mean.hpp"
 #include "setup/identified/identify.hpp"
 #include "setup/identified/learned_modes.hpp"
 #include "setup/identified/posture_tables.hpp"
@@ -117,6 +118,15 @@ void tell_learning(const LearnedRobot& learned, const PostureQuestions& question
     study.notes.emplace_back("numbers alone and together are compared by themselves, without the arm as their mean");
 }
 
+void answer_curve(const LearnedRobot& learned, const std::optional<posture::PostureCut>& cut, PostureStudy& study) {
+  std::optional<posture::TappedArm> nominal;
+  if (learned.robot.mean) nominal = setup::tapped_arm(learned.robot, setup::tip_dofs(learned.robot));
+  study.curves = posture::learning_curves(study.postures, learned.learning.options, nominal, cut);
+  if (!study.curves->plain.empty()) return;
+  study.curves.reset();
+  study.notes.emplace_back("a learning curve needs at least nine postures");
+}
+
 void answer_map(const LearnedRobot& learned, const PostureQuestions& questions, std::optional<posture::PostureCut> cut,
                 PostureStudy& study) {
   if (cut && questions.best_speed && !study.chart_rpm.empty()) cut->spindle_speeds_rpm = study.chart_rpm;
@@ -149,8 +159,8 @@ void answer_next(const LearnedRobot& learned, const PostureQuestions& questions,
 
 PostureQuestions questions_on(const std::vector<std::string>& parts) {
   PostureQuestions questions;
-  const std::array<bool*, posture_parts.size()> asked{&questions.errors, &questions.sharing, &questions.map,
-                                                      &questions.envelope, &questions.next};
+  const std::array<bool*, posture_parts.size()> asked{&questions.errors, &questions.curve,    &questions.sharing,
+                                                      &questions.map,    &questions.envelope, &questions.next};
   for (bool* part : asked) *part = false;
   for (const std::string& part : parts) {
     const auto found = std::ranges::find(posture_parts, part);
@@ -165,8 +175,8 @@ PostureStudy study_postures(const setup::Setup& source, const PostureQuestions& 
                             const StageListener& listener) {
   Stages stages(listener);
   const setup::TabledRobot robot = tapped_robot(source);
-  PostureStudy study{
-      robot.tapped->names, robot.postures->over, setup::names_of(setup::tip_dofs(robot)), robot.tapped->places, {}};
+  PostureStudy study{robot.tapped->names,  robot.postures->over, setup::names_of(setup::tip_dofs(robot)),
+                     robot.tapped->places, asked_place(robot),   {}};
   study.doubts = setup::doubts_about(robot);
   study.chart_rpm = chart_speeds(source);
   std::optional<posture::PostureCut> cut = cut_of(source, robot, study.notes);
@@ -184,6 +194,10 @@ PostureStudy study_postures(const setup::Setup& source, const PostureQuestions& 
   if (questions.errors) {
     stages.begin("errors");
     study.held_out = posture::held_out(study.postures, learned.learning.options, fold, cut);
+  }
+  if (questions.curve) {
+    stages.begin("learning curve");
+    answer_curve(learned, cut, study);
   }
   if (questions.sharing) {
     stages.begin("sharing");

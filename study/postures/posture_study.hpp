@@ -10,6 +10,7 @@
 
 #include "posture/band_envelope.hpp"
 #include "posture/held_out.hpp"
+#include "posture/learning_curve.hpp"
 #include "posture/next_posture.hpp"
 #include "posture/shared_tasks.hpp"
 #include "posture/workspace_map.hpp"
@@ -19,11 +20,12 @@
 namespace thinwall::study {
 
 /// The words of the questions: members of PostureQuestions.
-inline constexpr std::array<std::string_view, 5> posture_parts{"errors", "sharing", "map", "envelope", "next"};
+inline constexpr std::array<std::string_view, 6> posture_parts{"errors", "curve", "sharing", "map", "envelope", "next"};
 
 /// The questions that are asked.
 struct PostureQuestions {
   bool errors = true;    ///< how far off is what is learned, at postures that were held out?
+  bool curve = true;     ///< do more postures pay, and how many does an arm as the mean save?
   bool sharing = true;   ///< does it pay to learn the numbers of a mode together?
   bool map = true;       ///< what does the robot do over its workspace?
   bool envelope = true;  ///< which modes limit the depth at the posture that is asked for?
@@ -47,9 +49,11 @@ struct PostureStudy {
   std::vector<std::string> over;   ///< the columns
   std::vector<std::string> dofs;   ///< of the tip: responses and forces
   Eigen::MatrixXd places;          ///< of the postures, a row each
+  Eigen::RowVectorXd asked;        ///< robot.at
   std::vector<posture::TappedPosture> postures;
   std::optional<double> spindle_speed_rpm{};  ///< of depths; none: no cut by the robot
   std::optional<posture::HeldOut> held_out{};
+  std::optional<posture::LearningCurves> curves{};
   std::vector<posture::SharedTasks> shared{};
   Eigen::MatrixXd mapped_at{};
   std::vector<posture::MappedPlace> map{};
@@ -65,7 +69,7 @@ struct PostureStudy {
 /// are those of a robot that carries the tool, with the tool's modes beside it and a rigid part. Throws InputError for
 /// a set-up whose robot has no postures, for a measured tool, for places with another number of columns, and as
 /// setup::read_posture_tables(), setup::posture_learning(), setup::place_at() and the functions of posture/. Cost: a
-/// Predictor, and one a fold; of the map, draws × places limiting depths.
+/// Predictor, one a fold and one a point of each curve; of the map, draws × places limiting depths.
 [[nodiscard]] PostureStudy study_postures(const setup::Setup& source, const PostureQuestions& questions,
                                           const StageListener& listener = {});
 

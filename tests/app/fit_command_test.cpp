@@ -24,6 +24,7 @@
 #include "robot/modal_table.hpp"
 #include "tests/app/lobes_command.hpp"
 #include "tests/identification/random_structure.hpp"
+#include "tests/robot/modes_of_matrices.hpp"
 
 namespace thinwall::tests::fit_command_test {
 namespace {
@@ -68,6 +69,30 @@ class Fit : public testing::Test {
   dynamics::ResponseModel measured;
   TemporaryFolder temporary;
 };
+
+/// Receptances with a mass on point 1 give the poles of the structure without it, and the table that goes with them.
+TEST_F(Fit, TakesASensorsMassOffBeforeItFits) {
+  const Matrices bare = two_points(1.0);
+  Matrices loaded = bare;
+  loaded.M.diagonal().head<2>().array() += 0.3;
+  io::write_uff(path("loaded.uff"),
+                dynamics::to_response(robot::modal_model(table_of(loaded)), dynamics::linear_axis(20.0, 140.0, 900)));
+  const Outcome done = command({"fit", path("loaded.uff"), "--sensor", "1=300 g", "--out", path("out")});
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(done.out.find("0.3 kg at 1 is taken off, which changes 1.x by up to"), std::string::npos) << done.out;
+  const auto truth_there = table_of(bare).rows;
+  const nlohmann::json modes = figures()["modes"];
+  ASSERT_EQ(modes.size(), truth_there.size());
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    EXPECT_NEAR(modes[k]["frequency_hz"].get<double>() / truth_there[k].frequency_hz, 1.0, 1e-6);
+    EXPECT_NEAR(modes[k]["damping_ratio"].get<double>() / truth_there[k].damping_ratio, 1.0, 1e-5);
+  }
+  EXPECT_EQ(command({"fit", path("loaded.uff"), "--sensor", "300 g", "--out", path("out")}).code, 2);
+  EXPECT_EQ(command({"fit", path("loaded.uff"), "--sensor", "b=300 g", "--out", path("out")}).code, 2);
+  // A mass of which a mode is most: the kernel 1 + ω² m H is all but singular at resonances of what is left.
+  const Outcome heavy = command({"fit", path("loaded.uff"), "--sensor", "1=3 kg", "--out", path("out")});
+  EXPECT_NE(heavy.out.find("without 3 kg at 1 errors of the line at"), std::string::npos) << heavy.out << heavy.err;
+}
 
 /// The table that a robot is read from has the receptances of the truth, but for the static part of the lines.
 TEST_F(Fit, WritesATableThatARobotIsReadFrom) {

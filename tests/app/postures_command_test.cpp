@@ -125,6 +125,28 @@ TEST_F(Postures, AreFollowedAndToldByOthers) {
   EXPECT_NEAR(left_out[60], measured[60], 0.01);
 }
 
+/// The page is whole, has what was asked for, and carries the text of a title that is HTML safely.
+TEST_F(Postures, AreShownOnAPage) {
+  write("case.toml", "title = \"</script>\"\n" + core::read_file(temporary.path / "case.toml"));
+  const Outcome done = command({"--parts", "map,next", "--grid", "3"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(done.out.find("postures.html"), std::string::npos) << done.out;
+  const std::string page = core::read_file(temporary.path / "out" / "postures" / "postures.html");
+  const std::string begin = "<script type=\"application/json\" id=\"data\">";
+  const auto from = page.find(begin);
+  ASSERT_NE(from, std::string::npos);
+  const auto end = page.find("</script>", from);
+  const auto data = nlohmann::json::parse(page.substr(from + begin.size(), end - from - begin.size()));
+  EXPECT_EQ(data["title"], "</script>");
+  const nlohmann::json& shown = data["postures"];
+  EXPECT_EQ(shown["figures"], figures());
+  EXPECT_EQ(shown["asked"], nlohmann::json({1.7}));
+  EXPECT_EQ(shown["places"]["shape"], nlohmann::json({postures, 1}));
+  EXPECT_EQ(shown["map"]["depth_m"]["shape"], nlohmann::json({3, 3}));
+  EXPECT_EQ(shown["next"]["reduction"]["shape"], nlohmann::json({3}));
+  for (const char* absent : {"modes", "depths", "envelope"}) EXPECT_FALSE(shown.contains(absent)) << absent;
+}
+
 /// The map has the lowest mode in closed form; depths lie within their bands, and the envelope below the low modes.
 TEST_F(Postures, AreMapped) {
   const Outcome done = command({"--parts", "map,envelope", "--grid", "9"});

@@ -20,6 +20,7 @@
 #include "setup/simulation_faults.hpp"
 #include "study/kept/kept_identified.hpp"
 #include "tests/core/temporary_folder.hpp"
+#include "tests/robot/modes_of_matrices.hpp"
 
 namespace thinwall::cases::learned_postures_test {
 namespace {
@@ -95,6 +96,73 @@ TEST(LearnedPostures, BeyondTheirHullAreDoubted) {
   // 1 of a range of 4
   EXPECT_NE(doubts_about(source)[0].find("robot.at lies 25 % of the postures' range beyond"), std::string::npos)
       << doubts_about(source)[0];
+}
+
+/// Writes tables of the modes of matrices at `count` postures, with masses at the tip.
+void write_loaded(const std::filesystem::path& folder, int count, double mass_kg) {
+  std::ofstream list(folder / "postures.csv");
+  list << "posture,u\n";
+  for (int i = 0; i < count; ++i) {
+    const double u = 4.0 * i / (count - 1);
+    list << "p" << i << "," << u << "\n";
+    tests::Matrices robot = tests::two_points(1.0, 1.0 + 0.05 * u);
+    robot.M.diagonal().head<2>().array() += mass_kg;
+    std::ofstream table(folder / ("p" + std::to_string(i) + ".csv"));
+    table.precision(17);
+    table << "frequency_hz,damping_ratio,R_1X_re,R_1X_im,L_1X_re,L_1X_im,R_1Y_re,R_1Y_im,L_1Y_re,L_1Y_im\n";
+    for (const dynamics::ModalTableRow& mode : tests::table_of(robot).rows) {
+      table << mode.frequency_hz << "," << mode.damping_ratio;
+      for (const int dof : {0, 1})
+        table << "," << mode.right(dof).real() << "," << mode.right(dof).imag() << "," << mode.left(dof).real() << ","
+              << mode.left(dof).imag();
+      table << "\n";
+    }
+  }
+}
+
+/// What is learned of tables with a sensor on is what is learned of those without it, once its mass is taken off.
+TEST(LearnedPostures, AreFreedOfASensorsMassBeforeAnythingIsLearned) {
+  const tests::TemporaryFolder bare, loaded;
+  write_loaded(bare.path, 9, 0.0);
+  write_loaded(loaded.path, 9, 0.4);
+  const std::string keys = usual + "at = [1.3]\n", sensor = "[[robot.sensors]]\nat = \"1\"\nmass = \"0.4 kg\"\n";
+  const auto learned = [](const std::string& more, const std::filesystem::path& folder) {
+    Case source = parse_case(robot(more), folder);
+    EXPECT_TRUE(doubts_about(source).empty()) << doubts_about(source)[0];
+    setup::identify(source);
+    return modes(source)->rows;
+  };
+  const auto truth = learned(keys, bare.path), freed = learned(keys + sensor, loaded.path),
+             with = learned(keys, loaded.path);
+  ASSERT_EQ(freed.size(), truth.size());
+  for (std::size_t k = 0; k < truth.size(); ++k) {
+    EXPECT_NEAR(freed[k].frequency_hz / truth[k].frequency_hz, 1.0, 1e-6);
+    EXPECT_NEAR(freed[k].damping_ratio / truth[k].damping_ratio, 1.0, 1e-5);
+    const Eigen::MatrixXcd R = freed[k].right * freed[k].left.transpose(),
+                           exact = truth[k].right * truth[k].left.transpose();
+    EXPECT_LT((R - exact).norm(), 1e-5 * exact.norm());
+  }
+  EXPECT_LT(with.front().frequency_hz, 0.99 * truth.front().frequency_hz) << "the mass is felt";
+}
+
+/// A mass that is most of what moves is doubted with its condition, one that is more is refused.
+TEST(LearnedPostures, DoubtAMassThatIsMostOfWhatMoves) {
+  const tests::TemporaryFolder folder;
+  write_loaded(folder.path, 5, 60.0);
+  const auto text = [](const std::string& mass) {
+    return robot(usual + "at = [1.3]\n[[robot.sensors]]\nat = \"1\"\nmass = \"" + mass + "\"\n");
+  };
+  const Case source = parse_case(text("60 kg"), folder.path);
+  ASSERT_EQ(doubts_about(source).size(), 1U);
+  // Of 60 kg and 3 kg along x errors grow (60 + 3)/3 times.
+  EXPECT_NE(doubts_about(source)[0].find("grow 21 times at posture \"p"), std::string::npos) << doubts_about(source)[0];
+  try {
+    (void)parse_case(text("64 kg"), folder.path);
+    FAIL() << "more was taken off than there is";
+  } catch (const core::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("robot.sensors: "), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("64 kg is more than moves at \"1\""), std::string::npos) << error.what();
+  }
 }
 
 /// The error of a case, "" without one.

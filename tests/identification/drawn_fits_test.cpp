@@ -27,7 +27,7 @@ TEST(DrawnFits, ScatterAsTheCovarianceSays) {
   each << 0, 1, 2, 3;
   constexpr int draws = 300;
   const std::vector<ModalFit> drawn = drawn_fits(measured, fit, options, each, draws);
-  // Where χ² is above 1 by chance, the noise that is drawn is more by as much.
+  // The noise that is drawn is more by as much as χ² is above 1 by chance.
   const double more = std::sqrt(std::max(1.0, fit.chi2_per_dof()));
   for (std::size_t r = 0; r < 3; ++r) {
     double of_frequency = 0.0, of_damping = 0.0;

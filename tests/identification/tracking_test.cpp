@@ -94,6 +94,18 @@ TEST(Tracking, FollowsModesThroughCrossingsAndGaps) {
   }
 }
 
+/// Two modes of a spindle, along and across its tip's direction, at two postures at which the
+/// tip stands crosswise: in the world's axes each looks like the other one; in the tip's frame it is itself.
+TEST(Tracking, FollowsModesThatTurnWithTheTip) {
+  const double quarter = 1.5;
+  const auto seen = [](double turn) { return std::vector<FittedMode>{mode(800.0, turn), mode(806.0, turn + 1.57)}; };
+  const std::vector<std::vector<FittedMode>> world{seen(0.0), seen(quarter)}, tip{seen(0.0), seen(0.0)};
+  const Tracking plain = track(world), framed = track(world, tip);
+  EXPECT_NE(plain.label[0], plain.label[1]);
+  EXPECT_EQ(framed.label[0], framed.label[1]);
+  EXPECT_THROW((void)track(world, {seen(0.0)}), core::InputError);
+}
+
 TEST(Tracking, RefusesModesWithoutVectors) {
   EXPECT_THROW((void)track({}), core::InputError);
   std::vector<std::vector<FittedMode>> postures = crossing_postures();

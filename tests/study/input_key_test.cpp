@@ -257,6 +257,7 @@ void InputKeyOfFiles::expect_contents_in_keys(setup::Setup& source, std::size_t 
     name_one(contact->table, "preload_n,stiffness_n_per_m,damping_n_s_per_m\n1,1e-6,0\n2,2e-6,0\n");
   if (auto* robot = tabled_robot(source)) {
     robot->postures.reset();
+    robot->sensors.clear();
     robot->left_unit = robot->right_unit = "sqrt(s/kg)";
     robot->table_point = "1";
     name_one(robot->table, "frequency_hz,damping_ratio,R_1X_re,R_1X_im,L_1X_re,L_1X_im\n50,0.01,1e-6,1,1,1\n");

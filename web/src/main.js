@@ -21,6 +21,7 @@ import { provenance } from './provenance.js';
 import { simulation, simulationLead } from './simulation.js';
 import { section } from './section.js';
 import { fitPage } from './fit.js';
+import { posturesPage } from './postures.js';
 
 /** The runs' own blocks, side by side and each under its label where there are two. */
 function sideBySide(runs, of) {
@@ -70,7 +71,7 @@ function main() {
   const page = document.getElementById('page');
   try {
     const data = readDocument();
-    const { header, sections, start } = data.fit ? fitPage(data) : runsPage(data);
+    const { header, sections, start } = (data.fit ? fitPage : data.postures ? posturesPage : runsPage)(data);
     const links = [['answer', 'Answer'], ...sections.map((s) => [s.id, s.title])];
     page.replaceChildren(
       el('nav', { 'aria-label': 'Contents' }, el('div', { class: 'links' }, links.map(([id, title]) => el('a', { href: `#${id}` }, title))),

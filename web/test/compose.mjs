@@ -25,8 +25,8 @@ export function compose(data, dist = 'dist') {
 /** The data document of a finished page. */
 export const documentOf = (file) => JSON.parse(readFileSync(file, 'utf8').match(/<script type="application\/json" id="data">(.*?)<\/script>/s)[1]);
 
-/** True of the page of a fit. */
-export const isFit = (file) => Boolean(documentOf(file).fit);
+/** The kind of a page: "fit", "postures" or "runs". */
+export const kindOf = (file) => ['fit', 'postures'].find((kind) => documentOf(file)[kind]) ?? 'runs';
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
   writeFileSync(process.argv[3], compose(JSON.parse(readFileSync(process.argv[2], 'utf8'))));

@@ -8,12 +8,12 @@ import { after, before, describe, test } from 'node:test';
 import { commandOf, toggled } from '../src/chosen.js';
 import { displacements } from '../src/motion.js';
 import { drawn, launch, open, pixels, saved, slide, traces } from './browser.mjs';
-import { compose, documentOf, isFit } from './compose.mjs';
+import { compose, documentOf, kindOf } from './compose.mjs';
 import { fitted } from './synthetic.mjs';
 
 const folder = mkdtempSync(path.join(os.tmpdir(), 'thinwall-fit-'));
 const made = (name, data) => { const file = path.join(folder, `${name}.html`); writeFileSync(file, compose(data)); return file; };
-const given = (process.env.THINWALL_REPORTS ?? '').split(':').filter(Boolean).map((f) => path.resolve(f)).filter(isFit);
+const given = (process.env.THINWALL_REPORTS ?? '').split(':').filter(Boolean).map((f) => path.resolve(f)).filter((f) => kindOf(f) === 'fit');
 const pages = given.length ? given : [made('fit', fitted()), made('plain', fitted({ coherence: false, shapes: false, warnings: [] }))];
 
 let browser;

@@ -9,12 +9,12 @@ import { after, before, describe, test } from 'node:test';
 import { inflateSync } from 'node:zlib';
 import { table } from './csv.mjs';
 import { drawn, launch, open, pixels, saved, slide, traces } from './browser.mjs';
-import { compose, documentOf, isFit } from './compose.mjs';
+import { compose, documentOf, kindOf } from './compose.mjs';
 import { oneRun, twoRuns } from './synthetic.mjs';
 
 const folder = mkdtempSync(path.join(os.tmpdir(), 'thinwall-page-'));
 const made = (name, data) => { const file = path.join(folder, `${name}.html`); writeFileSync(file, compose(data)); return file; };
-const given = (process.env.THINWALL_REPORTS ?? '').split(':').filter(Boolean).map((f) => path.resolve(f)).filter((f) => !isFit(f));
+const given = (process.env.THINWALL_REPORTS ?? '').split(':').filter(Boolean).map((f) => path.resolve(f)).filter((f) => kindOf(f) === 'runs');
 const reports = given.length ? given : [made('one', oneRun()), made('two', twoRuns())];
 // A time depends on the machine and on what else it does: it is told always, and held to a bound only where one is given.
 const bound = Number(process.env.THINWALL_READY_MS ?? Infinity);

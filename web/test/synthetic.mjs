@@ -270,3 +270,31 @@ export function fitted({ coherence = true, shapes = true, warnings = ['the dampi
     mac: { values: pack('f32', [2, 2], [1, 0.1, 0.1, 1]), row_hz: modes.map((m) => m.f), column_hz: modes.map((m) => m.f) },
     ...(shapes ? { shapes: { points: responses.map((name, i) => ({ name: name.slice(0, 1), position_m: [0, i * 0.1, 0] })), lines: [[0, 1], [1, 2]], modes: modes.map((m) => ({ hz: m.f, shape: m.u.map((u) => [u, 0, 0, 0, 0, 0]) })) } } : {}) } };
 }
+
+/** A robot tapped at 6 postures over two columns, of which one is called like HTML; `expected` has the map's depths in mm by place. With `cut: false` it has no depths. */
+export function learned({ cut = true, parts = ['errors', 'curve', 'map', 'envelope', 'next', 'sharing'], doubts = ['2 modes could not be followed'] } = {}) {
+  const over = ['<x>', 'kappa_deg'];
+  const grid = [[0, 0], [0, 10], [1, 0], [1, 10], [2, 10]];
+  const depth = grid.map(([x, k]) => 0.002 + 0.0005 * x + 0.00001 * k);
+  const banded = (values) => pack('f64', [values.length, 3], values.flatMap((v) => [v, 0.9 * v, 1.2 * v]));
+  const list = (type, values) => pack(type, [values.length], values);
+  const has = (part) => parts.includes(part);
+  const number = (name, median) => ({ number: name, median_error: median, largest_error: 4 * median, worst_posture: 'p3', r2: 0.9, covered: 0.5 });
+  const shared = ['gains', 'none', 'loses'].map((sharing, i) => ({ mode: 1, group: ['frequency_and_damping', 'real_parts', 'imaginary_parts'][i], sharing, r2_alone: 0.9, r2_together: [0.95, 0.9, 0.8][i] }));
+  const figures = { postures: 6, over, spindle_speed_rpm: cut ? 9000 : undefined, doubts, notes: ['1 mode is learned from 6 postures'],
+    modes: [{ mode: 1, postures: 6, least_frequency_hz: 10, largest_frequency_hz: 12, numbers: has('errors') ? [number('ln_frequency', 0.002), number('ln_damping_ratio', 0.05)] : [] }],
+    ...(has('errors') && cut ? { depths: { median_error: 0.05, ninetieth_error: 0.1, largest_error: 0.2, worst_posture: 'p3', covered: 0.5 } } : {}),
+    ...(has('curve') ? { curve: { tested: 2, plain: [[7, 0.02, 0.1], [14, 0.01, 0.05]].map(([postures, f, d]) => ({ postures, frequency_error: f, ...(cut ? { depth_error: d } : {}) })), ...(cut ? { with_arm: [{ postures: 7, frequency_error: 0.002, depth_error: 0.03 }, { postures: 14, frequency_error: 0.001, depth_error: 0.02 }] } : {}) } } : {}),
+    ...(has('sharing') ? { shared } : {}),
+    ...(has('map') ? { map: { places: 5, least_first_hz: 10, largest_first_hz: 12, ...(cut ? { least_depth_m: 0.002, least_depth_low_m: 0.0018, least_depth_high_m: 0.0024, largest_depth_m: 0.0031, least_depth_at: [0, 0] } : {}) } } : {}),
+    ...(has('envelope') && cut ? { envelope: { split_hz: 100, least_low_m: 0.002, least_high_m: null, least_together_m: 0.0019 } } : {}),
+    ...(has('next') ? { next: { at: [1, 10], reduction: 0.6, of_depth: cut } } : {}) };
+  const ends = [[0, 0.01], [0.02, -0.02]];
+  return { schema: 1, program: 'thinwall 0.0', title: 'A robot & its <postures>', runs: [], expected: new Map(grid.map((place, i) => [place.join(), depth[i] * 1e3])), postures: {
+    figures, names: ['p1', 'p2', 'p3', 'p4', 'p5', 'p6'], places: pack('f64', [6, 2], [0, 0, 0, 10, 1, 0, 1, 10, 2, 10, 0.5, 5]), asked: [0.9, 4],
+    ...(has('errors') ? { modes: { posture: list('u32', [0, 2]), mode: list('u32', [1, 1]), measured: pack('f64', [2, 2], ends.flatMap(() => [Math.log(11), Math.log(0.02)])), predicted: pack('f64', [2, 2], ends.flatMap(([f, z]) => [Math.log(11) + f, Math.log(0.02) + z])), deviation: pack('f64', [2, 2], [0.005, 0.02, 0.005, 0.02]) } } : {}),
+    ...(figures.depths ? { depths: { posture: list('u32', [0, 2]), measured_m: list('f64', [0.002, 0.003]), predicted_m: list('f64', [0.0021, 0.0024]), low_m: list('f64', [0.0019, 0.0022]), high_m: list('f64', [0.0023, 0.0026]) } } : {}),
+    ...(has('map') ? { map: { places: pack('f64', [5, 2], grid.flat()), first_hz: banded(grid.map(([x]) => 10 + x)), ...(cut ? { rpm: list('f64', grid.map(() => 9000)), depth_m: banded(depth) } : {}) } } : {}),
+    ...(figures.envelope ? { envelope: { rpm: list('f64', [8000, 9000, 10000]), low_m: list('f64', [0.003, 0.002, 0.004]), high_m: list('f64', [Infinity, 0.0025, 0.003]), together_m: list('f64', [0.003, 0.0019, 0.003]) } } : {}),
+    ...(has('next') ? { next: { candidates: pack('f64', [5, 2], grid.flat()), reduction: list('f64', [0.1, 0.2, 0.3, 0.6, 0.4]), path: pack('f64', [1, 2], [0.9, 4]) } } : {}) } };
+}
