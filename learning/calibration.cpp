@@ -9,6 +9,7 @@
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "learning/quadratic_cuts.hpp"
 
 namespace thinwall::learning {
 
@@ -36,6 +37,15 @@ std::vector<Eigen::VectorXd> all_draws(const Chains& chains) {
   return all;
 }
 
+/// Mean and covariance of draws, with a tenth of another covariance, so that it is one whatever the draws.
+Region region_of(const std::vector<Eigen::VectorXd>& draws, const Eigen::MatrixXd& besides) {
+  const auto count = static_cast<double>(draws.size());
+  Region region{Eigen::VectorXd::Zero(besides.rows()), 0.1 * besides};
+  for (const Eigen::VectorXd& x : draws) region.mean += x / count;
+  for (const Eigen::VectorXd& x : draws) region.covariance += (x - region.mean) * (x - region.mean).transpose() / count;
+  return region;
+}
+
 double median(std::vector<double> values) {
   const auto middle = values.begin() + std::ssize(values) / 2;
   std::ranges::nth_element(values, middle);
@@ -59,12 +69,11 @@ std::vector<LearnedParameter> learned_parameters(const Calibration& c) {
   return list;
 }
 
-/// Probabilities of chatter by the prediction linearised at the likeliest x, the mean over the draws.
-std::vector<LearnedCut> learned_cuts(const Calibration& c) {
+/// Probabilities of chatter by quadratic predictions, the mean over the draws.
+std::vector<LearnedCut> learned_cuts(const Calibration& c, const QuadraticCuts& prediction) {
   Eigen::VectorXd chatters = Eigen::VectorXd::Zero(std::ssize(c.model.cuts));
   for (const Eigen::VectorXd& x : c.draws) {
-    const PredictedCuts predicted =
-        linearised(c.likeliest.predicted, without_noise(c.likeliest.x), without_noise(x));
+    const PredictedCuts predicted = prediction(without_noise(x));
     const double noise = noise_of(c.model, x);
     for (Index i = 0; i < chatters.size(); ++i)
       chatters(i) += chatter_probability(predicted.margin(i), noise) / static_cast<double>(c.draws.size());
@@ -150,10 +159,20 @@ Calibration calibrate(CutModel model, const ChainOptions& options) {
   const LogDensity dear = [&](const Eigen::VectorXd& x) {
     return log_posterior(c.model, predict(c.model, without_noise(x), false), x);
   };
-  const LogDensity cheap = [&](const Eigen::VectorXd& x) {
+  const LogDensity linear = [&](const Eigen::VectorXd& x) {
     return log_posterior(c.model, linearised(c.likeliest.predicted, z_mode, without_noise(x)), x);
   };
-  c.chains = surrogate_chains(dear, cheap, c.likeliest.x, c.likeliest.covariance, options);
+  ChainOptions first = options;
+  first.draws = std::max(20, options.draws / 4);
+  const Region all = region_of(
+      all_draws(surrogate_chains(dear, linear, c.likeliest.x, c.likeliest.covariance, first)), c.likeliest.covariance);
+  const auto parameters = std::ssize(c.model.parameters);
+  const QuadraticCuts prediction(c.model,
+                                 {all.mean.head(parameters), all.covariance.topLeftCorner(parameters, parameters)});
+  const LogDensity quadratic = [&](const Eigen::VectorXd& x) {
+    return log_posterior(c.model, prediction(without_noise(x)), x);
+  };
+  c.chains = surrogate_chains(dear, quadratic, all.mean, all.covariance, options);
   c.draws = all_draws(c.chains);
   c.parameters = learned_parameters(c);
   const ChainDiagnostics diagnostics = diagnose(c.chains.draws);
@@ -162,7 +181,7 @@ Calibration calibrate(CutModel model, const ChainOptions& options) {
   std::vector<double> noise;
   for (const Eigen::VectorXd& x : c.draws) noise.push_back(noise_of(c.model, x));
   c.noise = median(std::move(noise));
-  c.cuts = learned_cuts(c);
+  c.cuts = learned_cuts(c, prediction);
   return c;
 }
 

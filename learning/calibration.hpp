@@ -58,9 +58,9 @@ struct Calibration {
   std::vector<Eigen::VectorXd> draws;  ///< x, of all chains
 };
 
-/// The posterior by chains about the likeliest x, whose cheap density has the prediction linearised there. Throws
-/// InputError if there are no cuts or no uncertain parameters, and as predict(). Cost: likeliest(), and a prediction a
-/// draw.
+/// The posterior by chains whose cheap density has quadratic predictions (quadratic_cuts.hpp), fitted where short chains
+/// with the prediction linearised at the likeliest x have been. Throws InputError if there are no cuts or no uncertain
+/// parameters, and as predict(). Cost: likeliest(), and some three predictions a draw.
 [[nodiscard]] Calibration calibrate(CutModel model, const ChainOptions& options);
 
 /// At most `count` cuts with the parameters of draws, evenly among all.

@@ -7,4 +7,5 @@
 #include "learning/cut_likelihood.hpp"
 #include "learning/mean_force_fit.hpp"
 #include "learning/next_cut.hpp"
+#include "learning/quadratic_cuts.hpp"
 #include "learning/surrogate_chains.hpp"
