@@ -5,7 +5,7 @@ import { numbers } from './decode.js';
 import { faint } from './colours.js';
 import { isNumber, millimetres, number, percent, plain, rpm as speed, scaled } from './format.js';
 import { between, decades, plot } from './plot.js';
-import { observedMarks, observedOf, observedTable } from './observed.js';
+import { learnedLines, observedMarks, observedOf, observedTable } from './observed.js';
 import { pointMarks, pointsOf, pointTable } from './points.js';
 import { followMark, onShownPoint, simulatedPoints, simulationMarks } from './simulated.js';
 
@@ -49,6 +49,7 @@ export function lobesLead(runs) {
     all.some(({ lobe }) => lobe.compared) ? 'Thin lines: the limits of other methods, where they converged.' : '', has('not_converged') ? 'Crosses on the line did not converge.' : '',
     kinds.length ? `The lower panel gives the frequency of the chatter that begins at the line (${kinds.map((k) => signs[k]).join(', ')}${runs.length > 1 ? '; open of the first run, filled of the second' : ''}).` : '',
     runs.some((run) => pointsOf(run).length) ? 'Operating points are circles where they are stable, crosses where they chatter.' : '',
+    runs.some((run) => run.summary.lobes?.at(-1)?.learned) ? 'Lines called learned: what is stable with 50 and 95 % of what these cuts left possible.' : '',
     runs.some((run) => observedOf(run).length) ? 'Cuts that were made are filled where the chart is right, open and large where it is wrong: circles were stable, crosses chattered, diamonds were marginal.' : '',
     simulatedPoints(runs).length ? 'Diamonds were simulated; a click on one leads to its simulation.' : ''].filter(Boolean).join(' ');
 }
@@ -95,6 +96,7 @@ function build(curves, runs, rate, options, colours, narrow) {
     ...curves.flatMap((c) => limit(c, runs, colours, options.log)),
     ...curves.map((c) => chatterMarks(c, runs, from, to, colours, narrow)),
     ...curves.flatMap((c) => pockets(c, runs, colours)),
+    ...learnedLines(runs, colours),
     ...observedMarks(runs, colours),
     ...pointMarks(runs, colours),
     ...simulationMarks(runs, colours),

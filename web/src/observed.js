@@ -25,11 +25,22 @@ export function observedMarks(runs, colours) {
     return Object.entries(shown).flatMap(([outcome, symbol]) => {
       const cuts = judged.cuts.filter((cut) => cut.observed === outcome);
       if (!cuts.length) return [];
-      const colour = { stable: colours.good, chatter: colours.bad, marginal: colours.robot }[outcome];
+      const colour = { stable: colours.good, chatter: colours.bad, marginal: colours.mark }[outcome];
       return [{ name: `${runs.length > 1 ? `${plain(run.label)}: ` : ''}seen ${outcome}`, x: cuts.map((c) => c.spindle_speed_rpm), y: cuts.map((c) => c.depth_m * 1e3), mode: 'markers', cliponaxis: false,
         marker: { symbol: cuts.map((c) => (wrong(c) ? `${symbol}-open` : symbol)), size: cuts.map((c) => (wrong(c) ? 13 : 8)), color: colour, line: { width: cuts.map((c) => (wrong(c) ? 2.5 : 1)), color: colour } },
         customdata: cuts.map(note), hovertemplate: '%{customdata}', meta: `observed ${i} ${outcome}` }];
     });
+  });
+}
+
+/** The depths that are stable with 50 and 95 % of what the cuts left possible, where the chart learned from them. */
+export function learnedLines(runs, colours) {
+  return runs.flatMap((run, i) => {
+    const learned = (run.summary.lobes ?? []).at(-1)?.learned;
+    if (!learned) return [];
+    const line = (name, key, dash) => ({ name: `${runs.length > 1 ? `${plain(run.label)}: ` : ''}${name}`, x: learned.rows.map((row) => row.spindle_speed_rpm), y: learned.rows.map((row) => row[key] * 1e3),
+      mode: 'lines', line: { color: colours.mark, width: 1.6, dash }, hovertemplate: '%{y:.4~g} mm', meta: `learned ${i} ${key}` });
+    return [line('learned', 'median_m', 'dash'), line('learned, stable with 95 %', 'stable_95_m', 'dot')];
   });
 }
 
