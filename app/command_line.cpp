@@ -101,6 +101,19 @@ ExitCode lobes(const Arguments& arguments, const RunCase& run_case, std::ostream
   return compute(arguments, lobes_case(input), run_case, out, report::lobes_report);
 }
 
+ExitCode calibrate(const Arguments& arguments, const RunCase& run_case, std::ostream& out) {
+  return compute(arguments, calibrated_case(arguments.case_path, arguments.overrides, arguments.calibrate), run_case,
+                 out, report::lobes_report);
+}
+
+ExitCode validate(const Arguments& arguments, const RunCase& run_case, std::ostream& out) {
+  start_log(arguments);
+  if (arguments.threads > 0) core::set_thread_count(arguments.threads);
+  const Validation validation = validate_cases(arguments.validate, run_case);
+  out << validation.text;
+  return validation.page_is_true ? ExitCode::done : ExitCode::expectation;
+}
+
 ExitCode robot(const Arguments& arguments, std::ostream& out) {
   cases::Case source = cases::read_case(arguments.case_path, arguments.overrides);
   setup::identify(source);
@@ -267,6 +280,12 @@ ExitCode animate(const Arguments& arguments, std::ostream& out) {
 ExitCode execute(const CLI::App& app, const Arguments& arguments, const RunCase& run_case, std::ostream& out) {
   if (app.got_subcommand("run")) return run(arguments, run_case, out);
   if (app.got_subcommand("lobes")) return lobes(arguments, run_case, out);
+  if (app.got_subcommand("calibrate")) return calibrate(arguments, run_case, out);
+  if (app.got_subcommand("coefficients")) {
+    out << coefficients_of(arguments.coefficients);
+    return ExitCode::done;
+  }
+  if (app.got_subcommand("validate")) return validate(arguments, run_case, out);
   if (app.got_subcommand("robot")) return robot(arguments, out);
   if (app.got_subcommand("postures")) return postures(arguments, out);
   if (app.got_subcommand("simulate")) return simulate(arguments, out);

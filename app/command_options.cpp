@@ -255,6 +255,54 @@ void describe_postures(CLI::App& app, Arguments& arguments) {
   command->add_option("--threads", arguments.threads, "threads to use (default: all)")->check(CLI::Range(1, 1024));
 }
 
+void describe_calibrate(CLI::App& app, Arguments& arguments) {
+  CalibrateRequest& calibrate = arguments.calibrate;
+  auto* command = app.add_subcommand(
+      "calibrate",
+      "what cuts that were made ([[observed]]) teach of a case's frequencies, damping and coefficients, the chart that "
+      "follows, and the cut to make next");
+  add_case_arguments(*command, arguments);
+  command->add_option("--draws", calibrate.draws, "draws of each of four chains (default: 200)")
+      ->check(CLI::Range(40, 100000));
+  command->add_option("--seed", calibrate.seed, "seed of the draws (default: 1)")->check(CLI::Range(0, 1000000000));
+  command->add_option("--folds", calibrate.folds, "parts of the cuts that are predicted by the others in turn")
+      ->check(CLI::Range(2, 100));
+  command
+      ->add_option("--speed", calibrate.speed,
+                   "speed whose limit the next cut is to narrow: \"9000 rpm\" (default: the case's)")
+      ->type_name("SPEED");
+  add_run_arguments(*command, arguments);
+}
+
+void describe_coefficients(CLI::App& app, Arguments& arguments) {
+  CoefficientsRequest& coefficients = arguments.coefficients;
+  auto* command = app.add_subcommand(
+      "coefficients", "cutting coefficients with their intervals from mean forces at several feeds per tooth");
+  command
+      ->add_option("FORCES", coefficients.forces,
+                   "CSV, a line a cut: feed_per_tooth_mm, depth_mm, force_feed_n, force_normal_n, force_axis_n; where "
+                   "cuts are no slots radial_depth_mm and milling (up, down)")
+      ->type_name("FILE")
+      ->required();
+  command->add_option("--teeth", coefficients.teeth, "teeth of the tool")->required()->check(CLI::Range(1, 1000));
+  command->add_option("--diameter", coefficients.diameter, "of the tool, \"10 mm\"; for radial depths")
+      ->type_name("LENGTH");
+  command->add_option("--on", coefficients.on, "on what the forces act (default: tool)")->type_name("tool|part");
+}
+
+void describe_validate(CLI::App& app, Arguments& arguments) {
+  ValidateRequest& validate = arguments.validate;
+  auto* command = app.add_subcommand(
+      "validate",
+      "run all cases of a folder that have cuts that were made, and write how often their charts are right");
+  command->add_option("CASES", validate.cases, "folder of cases (default: cases)")->type_name("DIR");
+  command->add_option("--page", validate.page, "the page (default: docs/validation.md)")->type_name("FILE");
+  command->add_flag("--check", validate.check,
+                    "compare with the page in place of writing it; exit code 6 if it differs");
+  add_log_arguments(*command, arguments);
+  command->add_option("--threads", arguments.threads, "threads to use (default: all)")->check(CLI::Range(1, 1024));
+}
+
 void describe_for_the_shell(CLI::App& app, Arguments& arguments) {
   auto* completion = app.add_subcommand("completion", "print a script that completes thinwall's words in a shell");
   completion->add_option("SHELL", arguments.shell, "the shell")
@@ -287,6 +335,9 @@ void describe(CLI::App& app, Arguments& arguments) {
   add_case_arguments(*robot_command, arguments);
   robot_command->add_option("--out", arguments.out, "result folder (default: results/<case>)")->type_name("DIR");
   describe_postures(app, arguments);
+  describe_calibrate(app, arguments);
+  describe_validate(app, arguments);
+  describe_coefficients(app, arguments);
   describe_simulate(app, arguments);
   add_case_arguments(*app.add_subcommand("check", "report every error of a case, and sizes to expect"), arguments);
   describe_fit(app, arguments.fit);

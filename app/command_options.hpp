@@ -7,6 +7,9 @@
 #include "app/fit_command.hpp"
 #include "app/inspect_command.hpp"
 #include "app/lobes_input.hpp"
+#include "app/observed/calibrate_command.hpp"
+#include "app/observed/coefficients_command.hpp"
+#include "app/observed/validate_command.hpp"
 #include "app/postures_command.hpp"
 #include "app/reduce_command.hpp"
 #include "app/simulate_command.hpp"
@@ -31,6 +34,9 @@ struct Arguments {
   report::PhasesRequest phases;
   SimulateRequest simulate;
   PosturesRequest postures;
+  CalibrateRequest calibrate;
+  ValidateRequest validate;
+  CoefficientsRequest coefficients;
   SweepRequest sweep;
   MergeRequest merge;
   bool fresh = false, quiet = false, verbose = false, all = false;

@@ -375,6 +375,8 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   if (root.table("tool").exists()) bound.tool = bind_tool(root.table("tool"), folder);
   if (root.table("cutting").exists()) bound.cutting = bind_cutting(root.table("cutting"));
   if (root.table("lobes").exists()) bound.lobes = bind_lobes(root.table("lobes"), bound.tool);
+  bound.observed = bind_observed(root.tables("observed"), folder);
+  if (root.table("calibration").exists()) bound.calibration = bind_calibration(root.table("calibration"));
   if (root.table("machine").exists()) bound.machine = bind_machine(root.table("machine"));
   if (root.table("path").exists()) bound.path = bind_path(root.table("path"));
   if (setup::carries_tool(bound.robot)) {

@@ -31,6 +31,27 @@ setup::LobesOptions bind_lobes(const Table& table, const std::optional<setup::To
   return lobes;
 }
 
+std::vector<setup::ObservedCuts> bind_observed(const std::vector<Table>& tables, const std::filesystem::path& folder) {
+  std::vector<setup::ObservedCuts> list;
+  list.reserve(tables.size());
+  for (const Table& table : tables) {
+    if (table.has("file")) {
+      list.push_back({folder / table.text("file"), {}});
+      continue;
+    }
+    list.push_back({{},
+                    {{table.number("spindle_speed"), table.number("depth"),
+                      table.choice<milling::CutOutcome>("observed"), table.optional("chatter_frequency")}}});
+  }
+  return list;
+}
+
+setup::Calibration bind_calibration(const Table& table) {
+  setup::Calibration calibration{table.integer("draws"), table.integer("seed"), {}, table.optional("spindle_speed")};
+  if (table.has("folds")) calibration.folds = table.integer("folds");
+  return calibration;
+}
+
 milling::MachineLimits bind_machine(const Table& table) {
   milling::MachineLimits machine;
   const auto bound = [&](const char* key, double& value) { value = table.optional(key).value_or(value); };

@@ -1,7 +1,9 @@
 #pragma once
-// [lobes], [machine] and [path], typed.
+// [lobes], [[observed]], [calibration], [machine] and [path], typed.
 
+#include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "case/machining_case.hpp"
 #include "case/table.hpp"
@@ -10,6 +12,13 @@ namespace thinwall::cases {
 
 /// `tool` gives the depth limit where the table does not.
 [[nodiscard]] setup::LobesOptions bind_lobes(const Table& table, const std::optional<setup::Tool>& tool);
+
+/// The cuts that were made; those of a file are empty until it is read. `folder` is put before relative names.
+[[nodiscard]] std::vector<setup::ObservedCuts> bind_observed(const std::vector<Table>& tables,
+                                                             const std::filesystem::path& folder);
+
+/// How the chart learns from these cuts.
+[[nodiscard]] setup::Calibration bind_calibration(const Table& table);
 
 /// The limits of the machine; those that the table does not give stay without bound.
 [[nodiscard]] milling::MachineLimits bind_machine(const Table& table);

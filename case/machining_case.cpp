@@ -45,6 +45,8 @@ std::vector<DataFile> named_files(const setup::Setup& source) {
   section = "tool";
   if (source.tool) add_measured(source.tool->measured);
   if (source.tool && source.tool->swap) add_measured(source.tool->swap->measured);
+  section = "observed";
+  for (const setup::ObservedCuts& entry : source.observed) add(entry.file);
   section = "damping";
   if (const auto* modal = std::get_if<setup::ModalDamping>(&source.damping); modal != nullptr && modal->from_frf)
     add(modal->from_frf->file);

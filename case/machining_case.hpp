@@ -16,7 +16,7 @@ namespace thinwall::cases {
 /// A data file that a case names.
 struct DataFile {
   std::filesystem::path path;
-  std::string section;  ///< of the case that names it: "part", "robot", "contacts", "tool", "damping"
+  std::string section;  ///< of the case that names it: "part", "robot", "contacts", "tool", "observed", "damping"
   std::string sha256;   ///< of its bytes, in hexadecimal digits, as they were when the case was loaded
 };
 

@@ -21,6 +21,7 @@ ALLOWED = {
     "regression": ["core"],
     "identification": ["linalg", "dynamics", "core"],
     "milling": ["linalg", "dynamics", "core"],
+    "learning": ["milling", "linalg", "dynamics", "core"],
     "posture": ["milling", "coupling", "robot", "regression", "identification", "linalg", "dynamics", "core"],
     "io": ["mesh", "dynamics", "core"],
 }

@@ -9,7 +9,7 @@ import re
 import sys
 
 FOLDERS = ("core", "dynamics", "linalg", "mesh", "fem", "reduction", "robot", "coupling", "regression", "identification", "milling",
-           "posture", "io", "setup", "case", "study")
+           "learning", "posture", "io", "setup", "case", "study")
 
 
 def violations(root, folder):

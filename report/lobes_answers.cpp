@@ -7,8 +7,10 @@
 #include <iterator>
 #include <utility>
 
+#include "report/learned_summary.hpp"
 #include "report/lobes_words.hpp"
 #include "report/mesh_answer.hpp"
+#include "report/observed_summary.hpp"
 
 namespace thinwall::report {
 
@@ -137,7 +139,8 @@ std::vector<std::string> chart_notes(const LobesSummary& chart) {
 }
 
 std::string asked_text(const LobesSummary& chart) {
-  return (chart.robust ? robust_text(*chart.robust) : "") + indented(chart_notes(chart));
+  return (chart.robust ? robust_text(*chart.robust) : "") + indented(chart_notes(chart)) +
+         (chart.observed ? observed_text(*chart.observed) : "") + (chart.learned ? learned_text(*chart.learned) : "");
 }
 
 std::vector<std::string> sensitivity_sentences(const LobesSummary& chart) {

@@ -20,7 +20,7 @@ namespace thinwall::report {
 /// converge. Empty if there is nothing.
 [[nodiscard]] std::vector<std::string> chart_notes(const LobesSummary& chart);
 
-/// `robust` of a chart and its notes, lines indented by four; empty if it has none of them.
+/// `robust` and `observed` of a chart and its notes, lines indented by four; empty if it has none of them.
 [[nodiscard]] std::string asked_text(const LobesSummary& chart);
 
 /// What moves a chart's limit at the case's speed most, as sentences: "Part alone: 1 % more K_t lowers the limit by

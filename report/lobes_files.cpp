@@ -10,6 +10,8 @@
 
 #include "io/results/csv_table.hpp"
 #include "milling/direct/stability.hpp"
+#include "report/learned_summary.hpp"
+#include "report/observed_summary.hpp"
 
 namespace thinwall::report {
 
@@ -177,6 +179,8 @@ void write_lobes(const fs::path& folder, const study::StructureLobes& named) {
     write_chart(folder / (name + "_" + other.method + ".csv"), other.lobes, nullptr, {});
   if (named.map) write_map(folder / (name + "_map.csv"), *named.map);
   write_forces(folder / (name + "_forces.csv"), named.points);
+  if (!named.observed.empty()) write_observed(folder / (name + "_observed.csv"), observed_summary(named.observed));
+  if (named.learned) write_learned(folder / (name + "_learned.csv"), learned_summary(*named.learned));
   if (!named.forced_over_speed.empty()) write_forced(folder / (name + "_forced.csv"), named.forced_over_speed);
 }
 

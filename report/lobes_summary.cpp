@@ -5,6 +5,8 @@
 #include <functional>
 
 #include "report/finite_number.hpp"
+#include "report/learned_summary.hpp"
+#include "report/observed_summary.hpp"
 
 namespace thinwall::report {
 
@@ -127,6 +129,8 @@ void add_what_was_asked(LobesSummary& chart, const setup::Setup& source, const s
   for (const study::ComparedLobes& other : named.compared) chart.compared.push_back(compared_summary(other));
   if (named.map) chart.map = map_summary(*named.map);
   for (const auto& forced : named.forced_over_speed) chart.forced_over_speed.push_back(forced_summary(forced));
+  if (!named.observed.empty()) chart.observed = observed_summary(named.observed);
+  if (named.learned) chart.learned = learned_summary(*named.learned);
   if (!named.robust) return;
   chart.robust = {.confidence = source.lobes->robust->confidence,
                   .minimum_depth_m = named.robust->minimum_depth_m,

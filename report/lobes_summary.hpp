@@ -22,7 +22,7 @@ namespace thinwall::report {
 [[nodiscard]] std::vector<SensitivitySummary> sensitivities_summary(
     const std::vector<study::ParameterSensitivity>& list);
 
-/// Puts `compared`, `map`, `robust` and `forced_over_speed` beside the chart, those that there are.
+/// Puts `compared`, `map`, `robust`, `observed` and `forced_over_speed` beside the chart, those that there are.
 void add_what_was_asked(LobesSummary& chart, const setup::Setup& source, const study::StructureLobes& named);
 
 }  // namespace thinwall::report

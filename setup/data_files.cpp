@@ -12,6 +12,7 @@
 #include "setup/contact_model.hpp"
 #include "setup/imported_part.hpp"
 #include "setup/measured.hpp"
+#include "setup/observed.hpp"
 #include "setup/robot_tip.hpp"
 
 namespace thinwall::setup {
@@ -75,6 +76,9 @@ void read_data_files(Setup& source) {
   }
   if (auto* robot = tabled_robot(source.robot); robot != nullptr && !robot->table_modes && !robot->tapped)
     read_table_of_modes(*robot);
+  for (ObservedCuts& entry : source.observed) {
+    if (!entry.file.empty() && entry.cuts.empty()) entry.cuts = read_observed_cuts(entry.file);
+  }
   if (source.part && from_file(*source.part) && !source.part->imported)
     source.part->imported = read_part_file(*source.part);
 }
@@ -93,6 +97,9 @@ void share_data_files(Setup& varied, const Setup& read) {
   if (robot != nullptr && with_modes != nullptr) {
     robot->tapped = with_modes->tapped;
     if (!robot->postures) robot->table_modes = with_modes->table_modes;
+  }
+  for (std::size_t i = 0; i < std::min(varied.observed.size(), read.observed.size()); ++i) {
+    if (!varied.observed[i].file.empty()) varied.observed[i].cuts = read.observed[i].cuts;
   }
   if (varied.part && read.part) varied.part->imported = read.part->imported;
 }

@@ -13,11 +13,11 @@ namespace thinwall::setup {
 [[nodiscard]] std::vector<const MeasuredFrf*> measured_frfs(const Setup& source);
 
 /// Reads the files that the set-up names and does not hold yet: measured FRFs, tables of contacts, the robot's table of
-/// modes or those of its postures, the part. A file of which several FRFs are taken is read once. No stage of study/
-/// opens a file, so a set-up that was not read is refused there. Of an FRF the lines that are not believed are left
-/// out, and those of a tool are brought to one band (setup/believed_lines.hpp). Throws DataError, with file and line,
-/// for a file that cannot be read, and InputError as read_measured(), with_believed_lines(), take_common_band() and
-/// read_part_file(). Cost: that of reading all files.
+/// modes or those of its postures, observed cuts, the part. A file of which several FRFs are taken is read once. No
+/// stage of study/ opens a file, so a set-up that was not read is refused there. Of an FRF the lines that are not
+/// believed are left out, and those of a tool are brought to one band (setup/believed_lines.hpp). Throws DataError,
+/// with file and line, for a file that cannot be read, and InputError as read_measured(), with_believed_lines(),
+/// take_common_band() and read_part_file(). Cost: that of reading all files.
 void read_data_files(Setup& source);
 
 /// Puts what the files of `read` hold into `varied`, the same set-up with other numbers. No file is opened. What was

@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "milling/chart/machine_limits.hpp"
+#include "setup/calibration.hpp"
 #include "setup/chart.hpp"
 #include "setup/contact.hpp"
 #include "setup/cutting.hpp"
 #include "setup/fit.hpp"
 #include "setup/measured_frf.hpp"
+#include "setup/observed.hpp"
 #include "setup/part.hpp"
 #include "setup/part_model.hpp"
 #include "setup/point.hpp"
@@ -45,12 +47,14 @@ struct SupportSetup {
   CouplingChoice coupling;
 };
 
-/// The cutter, the cut, and the stability chart that is asked for.
+/// The cutter, the cut, the stability chart that is asked for, and the cuts that were made.
 struct CutSetup {
   std::optional<Tool> tool;
   std::optional<Cutting> cutting;
   std::optional<LobesOptions> lobes;
   std::optional<milling::MachineLimits> machine;
+  std::vector<ObservedCuts> observed;
+  std::optional<Calibration> calibration;
 };
 
 /// All that is known of one set-up. What is absent is not computed. A stage takes those of the bases that it reads.

@@ -4,6 +4,7 @@
 
 #include "core/eigen_alignment.hpp"
 #include "setup/believed_lines.hpp"
+#include "setup/calibration.hpp"
 #include "setup/chart.hpp"
 #include "setup/contact.hpp"
 #include "setup/contact_model.hpp"
@@ -26,6 +27,7 @@
 #include "setup/measured_layout.hpp"
 #include "setup/measured_noise.hpp"
 #include "setup/milling_process.hpp"
+#include "setup/observed.hpp"
 #include "setup/part.hpp"
 #include "setup/part_attachments.hpp"
 #include "setup/part_geometry.hpp"

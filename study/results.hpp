@@ -18,6 +18,8 @@
 #include "dynamics/spatial_model.hpp"
 #include "fem/modes.hpp"
 #include "fem/to_tolerance.hpp"
+#include "learning/calibration.hpp"
+#include "learning/next_cut.hpp"
 #include "mesh/solid/quality.hpp"
 #include "milling/chart/lobes.hpp"
 #include "milling/chart/operating_point.hpp"
@@ -26,6 +28,7 @@
 #include "milling/chart/sampled_uncertainty.hpp"
 #include "milling/chart/stability_map.hpp"
 #include "milling/forced/forced_vibration.hpp"
+#include "milling/observed/observed_cut.hpp"
 #include "reduction/identification.hpp"
 #include "reduction/methods/craig_bampton.hpp"
 #include "reduction/trust/accuracy.hpp"
@@ -201,6 +204,34 @@ struct PointStability {
   std::vector<ParameterSensitivity> sensitivities;  ///< of the boundary in depth, largest first; by the direct method
 };
 
+/// What an uncertain prediction says of a cut.
+enum class Certainty { certainly_stable, open, certainly_unstable };
+
+/// A cut that was made, and what a chart says of it.
+struct JudgedCut {
+  milling::ObservedCut observed;
+  PointStability predicted;
+  std::optional<double> chatter_probability;  ///< by draws of [lobes.uncertainty]; none: nothing is uncertain
+  std::optional<Certainty> certainty;         ///< that follows
+  std::optional<bool> textbook_stable;        ///< by the zeroth-order method; none: it cannot take the cut
+};
+
+/// What the cuts that were made taught of a chart.
+struct LearnedChart {
+  /// The limits of the draws at one speed, m.
+  struct Row {
+    double spindle_speed_rpm = 0.0;
+    double before_m = 0.0;                        ///< of the nominal cut
+    double median_m = 0.0;                        ///< stable with 50 %
+    double stable_90_m = 0.0, stable_95_m = 0.0;  ///< stable with so many percent of the draws
+  };
+  learning::Calibration calibration;
+  std::optional<milling::Score> before;           ///< cuts that the nominal cut predicts rightly
+  std::optional<milling::Score> cross_validated;  ///< that likeliest parameters of other cuts do
+  std::optional<learning::NextCut> next;
+  std::vector<Row> rows;
+};
+
 /// A chart of the same cut by another method, and where it differs most.
 struct ComparedLobes {
   std::string method;  ///< name of milling::Method
@@ -232,6 +263,8 @@ struct StructureLobes {
   std::optional<milling::StabilityMap> map;
   std::optional<milling::RobustLobes> robust;
   std::vector<milling::Pocket> robust_pockets;
+  std::vector<JudgedCut> observed;                   ///< the cuts that were made, in the order of the case
+  std::optional<LearnedChart> learned;               ///< from these cuts, where it was asked for
   std::vector<DepthError> errors;                    ///< of every row; empty: nothing is known to be wrong
   std::optional<DepthError> error_at_spindle_speed;  ///< at the case's own speed
   std::optional<milling::DepthScatter> scatter;      ///< of drawn samples, at the case's own speed
@@ -294,6 +327,9 @@ struct Results {
 
 namespace thinwall::core {
 
+template <>
+inline constexpr std::array<std::string_view, 3> words<study::Certainty>{"certainly_stable", "open",
+                                                                         "certainly_unstable"};
 template <>
 inline constexpr std::array<std::string_view, 3> words<study::SurveyPlaces>{"posture", "path", "workspace"};
 

@@ -15,6 +15,7 @@
 #include "case/checks/kept_points.hpp"
 #include "case/checks/lobes_checks.hpp"
 #include "case/checks/measured_checks.hpp"
+#include "case/checks/observed_checks.hpp"
 #include "case/checks/part_checks.hpp"
 #include "case/checks/path_checks.hpp"
 #include "case/checks/robot_checks.hpp"
@@ -313,6 +314,7 @@ std::vector<Problem> check_case(const Case& source) {
       (!source.tool->measured.empty() || source.tool->swap || source.tool->fit))
     check_measured_tool(*source.tool, findings);
   if (source.lobes) check_lobes(source, findings);
+  check_observed(source, findings);
   if (source.machine) check_machine(source, findings);
   if (source.path) check_path(source, findings);
   if (source.simulation) check_simulation(source, findings);

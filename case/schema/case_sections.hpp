@@ -102,6 +102,12 @@ inline constexpr Section case_sections[] = {
         "Relative standard uncertainties, for a chart that holds in spite of them (docs/theory/lobes.md). From poles "
         "and by the direct method.",
         ""},
+    Section{"observed[]", "Cuts that were made: each chart tells which of them it predicts rightly. Needs [lobes].",
+            ""},
+    Section{"calibration",
+            "The chart learns from `[[observed]]`: `[lobes.uncertainty]` is what is known beforehand "
+            "(docs/theory/calibration.md). Needs poles.",
+            ""},
     Section{"simulation",
             "Operating points in the time domain (docs/theory/time-domain.md): how large the vibration becomes, where "
             "teeth "

@@ -11,10 +11,6 @@ namespace {
 namespace kind = core::kind;
 using namespace bounds;
 
-constexpr auto methods =
-    "direct|zeroth_order|multi_frequency|semi_discretization_0|semi_discretization_1|semi_discretization_2|"
-    "full_discretization_1|full_discretization_2|full_discretization_3";
-
 // A built-in array: clang stops counting the arguments from which a std::array would find its size at 256.
 
 // clang-format off
@@ -397,6 +393,15 @@ constexpr Key case_keys[] = {
     Key{"lobes.uncertainty.receptance", Type::quantity, kind::number, "0", uncertainty, "", "Of every mode's height in the receptance (its modal mass), frequency and damping apart."},
     Key{"lobes.uncertainty.coefficients", Type::quantity, kind::number, "0", uncertainty, "", "Of each cutting coefficient."},
     Key{"lobes.uncertainty.confidence", Type::quantity, kind::number, "2", {0.0, 6.0, true, false, false, "2 stands for 97.7 %"}, "", "k: how many standard uncertainties the robust depth stays below the limit."},
+    Key{"observed[].file", Type::file, kind::number, "", any, "", "A CSV of cuts in place of the keys below: columns `spindle_speed_rpm`, `depth_mm` or `depth_m`, `observed`, and `chatter_frequency_hz` where it was heard."},
+    Key{"observed[].spindle_speed", Type::quantity, kind::spindle_speed, "", positive, "", "Of the cut."},
+    Key{"observed[].depth", Type::quantity, kind::length, "", positive, "", "Its axial depth."},
+    Key{"observed[].observed", Type::choice, kind::number, "", any, "stable|chatter|marginal", "What was seen of it. A marginal cut is shown, but counts neither as right nor as wrong."},
+    Key{"observed[].chatter_frequency", Type::quantity, kind::frequency, "", positive, "", "That was heard, of a cut that chattered or was marginal."},
+    Key{"calibration.draws", Type::integer, kind::number, "200", {40, 1e5, false, false, false, "200 tell a deviation to a few percent"}, "", "Draws of each of four chains, after the fifth of them that is left out."},
+    Key{"calibration.seed", Type::integer, kind::number, "1", {0, 1e9, false, false, false, ""}, "", "Seed of these draws."},
+    Key{"calibration.folds", Type::integer, kind::number, "", {2, 100, false, false, false, "10 is usual"}, "", "Parts of the cuts, each of which is predicted by what the others teach; not done if not given."},
+    Key{"calibration.spindle_speed", Type::quantity, kind::spindle_speed, "", positive, "", "The speed whose limit the next cut is to narrow; `cutting.spindle_speed` if not given."},
 
     Key{"machine.min_spindle_speed", Type::quantity, kind::spindle_speed, "", not_negative, "", "Lowest spindle speed."},
     Key{"machine.max_spindle_speed", Type::quantity, kind::spindle_speed, "", positive, "", "Highest spindle speed."},

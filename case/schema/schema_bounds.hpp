@@ -1,5 +1,5 @@
 #pragma once
-// Bounds of numbers that several keys of the schemas share.
+// Bounds of numbers and words that several keys of the schemas share.
 
 #include <limits>
 
@@ -35,5 +35,10 @@ inline constexpr Bounds radial_bounds{0.0, 1e12, false, false, false, "for N/mm^
 inline constexpr Bounds uncertainty{0.0,   1.0,   false,
                                     false, false, "a standard uncertainty relative to the value: 5 % is 0.05"};
 inline constexpr bool required = true;
+
+/// The words of lobes.method.
+inline constexpr auto methods =
+    "direct|zeroth_order|multi_frequency|semi_discretization_0|semi_discretization_1|semi_discretization_2|"
+    "full_discretization_1|full_discretization_2|full_discretization_3";
 
 }  // namespace thinwall::cases::bounds

@@ -7,6 +7,8 @@
 #include "report/summary/errors.hpp"
 #include "report/summary/field.hpp"
 #include "report/summary/forced_over_speed.hpp"
+#include "report/summary/learned.hpp"
+#include "report/summary/observed.hpp"
 #include "study/lobes/chart_of.hpp"
 
 namespace thinwall::report {
@@ -285,6 +287,8 @@ struct LobesSummary {
   std::optional<CaseSpeedSummary> at_case_speed;
   std::optional<DoubtfulLimitSummary> below_first_resonance;
   std::vector<ForcedOverSpeedSummary> forced_over_speed;
+  std::optional<ObservedSummary> observed;
+  std::optional<LearnedSummary> learned;
 };
 
 template <class Visitor, Either<LobesSummary> Section>
@@ -332,6 +336,9 @@ void fields(Visitor& visit, Section& chart) {
               "forced motion over the speeds, at each depth of an operating point; absent without a feed or poles",
               Presence::if_any},
         chart.forced_over_speed);
+  visit(Field{"observed", Kind::section, "cuts that were made, held against the chart; absent: the case has none"},
+        chart.observed);
+  visit(Field{"learned", Kind::section, "what these cuts taught; absent without [calibration]"}, chart.learned);
 }
 
 }  // namespace thinwall::report

@@ -61,6 +61,8 @@ std::string structure_key(const setup::Setup& source) {
 std::string charts_key(const setup::Setup& source) {
   setup::CutSetup cut = source;
   cut.machine.reset();
+  cut.observed.clear();
+  cut.calibration.reset();
   const bool asks_for_feed = cut.cutting && (cut.cutting->law == setup::ForceLawKind::power ||
                                              cut.cutting->law == setup::ForceLawKind::fractional);
   if (cut.cutting && !asks_for_feed) cut.cutting->spindle_speed_rpm.reset();
@@ -70,6 +72,8 @@ std::string charts_key(const setup::Setup& source) {
 std::string simulation_key(const setup::Setup& source) {
   setup::CutSetup cut = source;
   cut.machine.reset();
+  cut.observed.clear();
+  cut.calibration.reset();
   const std::optional<double> modes_up_to_hz =
       cut.lobes ? cut.lobes->modes_up_to_hz : std::nullopt;  // cut_structure.hpp
   const bool has_chart = cut.lobes.has_value();              // whose modes have a usual bound

@@ -19,9 +19,11 @@
 #include "setup/milling_process.hpp"
 #include "study/kept/kept_part.hpp"
 #include "study/lobes/cut_structure.hpp"
+#include "study/lobes/learned_chart.hpp"
 #include "study/lobes/lobe_sensitivity.hpp"
 #include "study/lobes/low_limit.hpp"
 #include "study/lobes/main_modes.hpp"
+#include "study/lobes/observed_cuts.hpp"
 
 namespace thinwall::study {
 
@@ -151,6 +153,28 @@ PointStability stability_of(const milling::OperatingPoint& point, const Chart& c
   return result;
 }
 
+/// Holds the cuts that were made against the chart; they share out among the threads.
+void add_observed(const setup::CutSetup& source, const Chart& chart, StructureLobes& result) {
+  const std::vector<milling::ObservedCut> cuts = setup::all_cuts(source.observed);
+  result.observed.resize(cuts.size());
+  core::Progress progress("observed cuts", cuts.size());
+  core::parallel_for(cuts.size(), [&](std::size_t i) {
+    const milling::OperatingPoint point{cuts[i].spindle_speed_rpm, cuts[i].depth_m};
+    result.observed[i] = {cuts[i], stability_of(point, chart, source.lobes->method, result.lobes), {}, {}, {}};
+    progress.step();
+  });
+  if (chart.poles() == nullptr) return;
+  const milling::Cut nominal{*chart.poles(), chart.process};
+  const std::vector<double> probability = chatter_probabilities(source, nominal, chart.options.stability);
+  for (std::size_t i = 0; i < probability.size(); ++i) {
+    result.observed[i].chatter_probability = probability[i];
+    result.observed[i].certainty = certainty_of(probability[i], source.lobes->robust->confidence);
+  }
+  const std::vector<bool> textbook = textbook_verdicts(source, nominal, chart.options);
+  for (std::size_t i = 0; i < textbook.size(); ++i) result.observed[i].textbook_stable = textbook[i];
+  if (source.calibration) result.learned = learned_chart(source, nominal, chart.options.stability);
+}
+
 ComparedLobes compared(const Chart& chart, const milling::Lobes& reference, milling::Method method) {
   ComparedLobes result{milling::name(method), chart.by(method, speeds_of(reference))};
   for (std::size_t i = 0; i < reference.rows.size(); ++i) {
@@ -256,6 +280,7 @@ StructureLobes compute_lobes(const setup::CutSetup& source, ChartOf of, CutStruc
     result.points.push_back(stability_of(point, chart, wanted.method, result.lobes));
     result.points.back().forced = forced_at(source, result.points.back(), chart);
   }
+  add_observed(source, chart, result);
   if (chart.poles() == nullptr) {
     // The checks refuse for a measured tool what needs poles; a chart with a measured robot goes without it.
     add_pockets(source, process, result);

@@ -60,7 +60,12 @@ COARSE = {  # what makes a case quick, if no page of the docs shows it anyway
 }
 
 
-SHARED = {"bondarenko-2012-b": "bondarenko-2012-bc", "bondarenko-2012-c": "bondarenko-2012-bc"}  # one script for two cases
+SHARED = {  # one script for two cases
+    "bondarenko-2012-b": "bondarenko-2012-bc",
+    "bondarenko-2012-c": "bondarenko-2012-bc",
+    "insperger-mann-2003-up": "insperger-mann-2003",
+    "insperger-mann-2003-down": "insperger-mann-2003",
+}
 
 
 def script_of(case):
@@ -116,6 +121,18 @@ def test_ding_2010(run_case):
     assert number(r"direct +off by +([\d.]+) %", text) < 0.02  # twice the tolerance of 1e-4
     assert number(r"direct .*, +(\d+) flips", text) > 0
     assert number(r"zeroth_order .*, +(\d+) flips", text) == 0  # an average force has no flips
+
+
+def test_hajdu_2020(run_case):
+    text = example(run_case, "hajdu-2020")
+    assert number(r"tap test: (\d+) of 58 right", text) / 58 == pytest.approx(0.74, abs=0.06)  # published: 87 of 118
+
+
+@pytest.mark.parametrize(("half", "right"), [("up", 24), ("down", 17)])
+def test_insperger_mann_2003(run_case, half, right):
+    text = example(run_case, f"insperger-mann-2003-{half}")
+    assert number(r"(\d+) of \d+ right", text) >= right  # together the published 41
+    assert text.count("boundary") == number(r"\d+ of (\d+) right", text) - number(r"(\d+) of \d+ right", text)
 
 
 def test_huynh_2017(run_case):

@@ -1,0 +1,128 @@
+#include "app/observed/coefficients_command.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "io/results/csv_table.hpp"
+#include "learning/mean_force_fit.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+/// A column with the unit behind its name.
+struct Unit {
+  const char* ending;
+  double factor;
+};
+
+constexpr Unit lengths[] = {{"_mm", 1e-3}, {"_m", 1.0}};
+constexpr Unit forces[] = {{"_n", 1.0}, {"_kn", 1e3}};
+
+/// A table with its file's name for messages.
+struct Source {
+  std::string file;
+  io::Table table;
+
+  [[nodiscard]] bool has(const std::string& name) const {
+    return std::ranges::count(table, name, &io::Column::name) > 0;
+  }
+
+  /// The column of that name in any of the units, SI; empty if there is none.
+  template <std::size_t n>
+  [[nodiscard]] std::vector<double> column(const std::string& name, const Unit (&units)[n]) const {
+    for (const Unit& unit : units) {
+      if (!has(name + unit.ending)) continue;
+      std::vector<double> values = io::numbers(table, name + unit.ending, file);
+      for (double& value : values) value *= unit.factor;
+      return values;
+    }
+    if (has(name)) {
+      throw core::DataError(fmt::format("{}: column \"{}\" does not say its unit; call it \"{}{}\" or \"{}{}\"", file,
+                                        name, name, units[0].ending, name, units[1].ending));
+    }
+    return {};
+  }
+
+  template <std::size_t n>
+  [[nodiscard]] std::vector<double> needed(const std::string& name, const Unit (&units)[n]) const {
+    std::vector<double> values = column(name, units);
+    if (!values.empty()) return values;
+    throw core::DataError(fmt::format("{}: there is no column \"{}{}\" or \"{}{}\"; add it", file, name,
+                                      units[0].ending, name, units[1].ending));
+  }
+};
+
+double diameter_of(const CoefficientsRequest& request) {
+  if (request.diameter.empty())
+    throw core::UsageError("--diameter is missing: the angles of a radial depth follow by it; give \"10 mm\"");
+  try {
+    return core::parse_quantity(request.diameter, core::kind::length);
+  } catch (const core::InputError& error) {
+    throw core::UsageError("--diameter \"" + request.diameter + "\": " + error.what());
+  }
+}
+
+/// The engagement of every line: slots where no radial depth is given.
+std::vector<milling::Engagement> engagements_of(const Source& source, const CoefficientsRequest& request,
+                                                std::size_t count) {
+  const std::vector<double> radial = source.column("radial_depth", lengths);
+  if (radial.empty()) return {count, milling::Engagement{0.0, std::numbers::pi}};
+  const auto milling_column = std::ranges::find(source.table, "milling", &io::Column::name);
+  const auto* words =
+      milling_column == source.table.end() ? nullptr : std::get_if<std::vector<std::string>>(&milling_column->values);
+  if (words == nullptr)
+    throw core::DataError(source.file + ": radial depths need a column \"milling\" with up or down; add it");
+  milling::Cutter cutter;
+  cutter.teeth = request.teeth;
+  cutter.diameter_m = diameter_of(request);
+  std::vector<milling::Engagement> list;
+  for (std::size_t i = 0; i < radial.size(); ++i) {
+    const std::string& word = (*words)[i];
+    if (word != "up" && word != "down")
+      throw core::DataError(fmt::format("{}, cut {}: milling \"{}\"; write up or down", source.file, i + 1, word));
+    list.push_back(milling::engagement_of(
+        cutter, radial[i], word == "up" ? milling::MillingDirection::up : milling::MillingDirection::down));
+  }
+  return list;
+}
+
+std::vector<learning::MeanForceTest> tests_of(const CoefficientsRequest& request) {
+  const Source source{request.forces, io::read_csv(request.forces)};
+  const auto feeds = source.needed("feed_per_tooth", lengths), depths = source.needed("depth", lengths);
+  const auto x = source.needed("force_feed", forces), y = source.needed("force_normal", forces),
+             z = source.needed("force_axis", forces);
+  const auto engagements = engagements_of(source, request, feeds.size());
+  const double sign = request.on == "part" ? -1.0 : 1.0;
+  std::vector<learning::MeanForceTest> tests;
+  for (std::size_t i = 0; i < feeds.size(); ++i)
+    tests.push_back({engagements[i], depths[i], feeds[i], sign * Eigen::Vector3d(x[i], y[i], z[i])});
+  return tests;
+}
+
+std::string line_of(const char* name, const learning::FittedCoefficient& c, double factor, const char* unit) {
+  return fmt::format("{:<4}= \"{:.6g} {}\"   # ± {:.3g} with 95 %\n", name, c.value * factor, unit,
+                     c.half_interval * factor);
+}
+
+}  // namespace
+
+std::string coefficients_of(const CoefficientsRequest& request) {
+  if (request.on != "tool" && request.on != "part")
+    throw core::UsageError("--on \"" + request.on + "\": write tool or part");
+  const std::vector<learning::MeanForceTest> tests = tests_of(request);
+  const learning::CoefficientFit fit = learning::fit_mean_forces(request.teeth, tests);
+  return fmt::format("# {} cuts; R2 {:.5f}, residual {:.3g} N, condition {:.3g}\n[cutting]\n", tests.size(),
+                     fit.r_squared, fit.residual_n, fit.condition) +
+         line_of("Kt", fit.K_t, 1e-6, "N/mm^2") + line_of("Kr", fit.K_r, 1e-6, "N/mm^2") +
+         line_of("Ka", fit.K_a, 1e-6, "N/mm^2") + line_of("Kte", fit.K_te, 1e-3, "N/mm") +
+         line_of("Kre", fit.K_re, 1e-3, "N/mm") + line_of("Kae", fit.K_ae, 1e-3, "N/mm");
+}
+
+}  // namespace thinwall::app

@@ -1,0 +1,11 @@
+#pragma once
+// All that learning/ offers to other programs.
+
+#include "core/eigen_alignment.hpp"
+#include "learning/calibration.hpp"
+#include "learning/chain_diagnostics.hpp"
+#include "learning/cut_likelihood.hpp"
+#include "learning/mean_force_fit.hpp"
+#include "learning/next_cut.hpp"
+#include "learning/quadratic_cuts.hpp"
+#include "learning/surrogate_chains.hpp"

@@ -1,0 +1,30 @@
+#pragma once
+// The cut whose outcome is expected to tell most about a limit.
+
+#include <optional>
+#include <vector>
+
+#include "learning/calibration.hpp"
+#include "milling/chart/operating_point.hpp"
+
+namespace thinwall::learning {
+
+/// A cut to make, and what it is expected to bring.
+struct NextCut {
+  milling::OperatingPoint point;
+  double chatter_probability = 0.0;
+  double deviation_before = 0.0;  ///< standard, of ln of the limiting depth at the wanted speed
+  double deviation_after = 0.0;   ///< expected: root of the mean variance over both outcomes
+};
+
+/// Of the `candidates` the one that minimises the expected variance of ln w at the wanted speed,
+///
+///     E Var = P Var(ln w | chatter) + (1 − P) Var(ln w | stable)
+///
+/// over `draws` of the posterior, which an outcome weighs by its probability at each of them; a draw that is stable up
+/// to the depth limit has its limit there. Throws InputError without draws or candidates. Cost: draws times a row and
+/// a multiplier for each candidate.
+[[nodiscard]] NextCut next_cut(const Calibration& calibration, std::size_t draws, double spindle_speed_rpm,
+                               const std::vector<milling::OperatingPoint>& candidates);
+
+}  // namespace thinwall::learning

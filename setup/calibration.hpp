@@ -1,0 +1,16 @@
+#pragma once
+// How a chart learns from the cuts that were made.
+
+#include <optional>
+
+namespace thinwall::setup {
+
+/// The calibration of a chart by observed cuts: the prior is lobes.uncertainty.
+struct Calibration {
+  int draws = 200;                          ///< of each of four chains, after those that are left out
+  int seed = 1;                             ///< of the draws
+  std::optional<int> folds;                 ///< parts of which each is predicted by the others; none: not done
+  std::optional<double> spindle_speed_rpm;  ///< for which the next cut is chosen; none: that of the case
+};
+
+}  // namespace thinwall::setup
