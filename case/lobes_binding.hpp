@@ -17,7 +17,7 @@ namespace thinwall::cases {
 [[nodiscard]] std::vector<setup::ObservedCuts> bind_observed(const std::vector<Table>& tables,
                                                              const std::filesystem::path& folder);
 
-/// How the chart learns from these cuts.
+/// The calibration of the chart by these cuts.
 [[nodiscard]] setup::Calibration bind_calibration(const Table& table);
 
 /// The limits of the machine; those that the table does not give stay without bound.

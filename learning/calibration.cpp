@@ -146,8 +146,8 @@ Likeliest likeliest_from(const CutModel& model, const Eigen::VectorXd& start) {
     best.log_posterior = there;
   }
   const PosteriorSlope slope = posterior_slope(model, best.predicted, best.x);
-  best.covariance = Eigen::LLT<Eigen::MatrixXd>(slope.curvature)
-                        .solve(Eigen::MatrixXd::Identity(best.x.size(), best.x.size()));
+  best.covariance =
+      Eigen::LLT<Eigen::MatrixXd>(slope.curvature).solve(Eigen::MatrixXd::Identity(best.x.size(), best.x.size()));
   return best;
 }
 
@@ -164,8 +164,8 @@ Calibration calibrate(CutModel model, const ChainOptions& options) {
   };
   ChainOptions first = options;
   first.draws = std::max(20, options.draws / 4);
-  const Region all = region_of(
-      all_draws(surrogate_chains(dear, linear, c.likeliest.x, c.likeliest.covariance, first)), c.likeliest.covariance);
+  const Region all = region_of(all_draws(surrogate_chains(dear, linear, c.likeliest.x, c.likeliest.covariance, first)),
+                               c.likeliest.covariance);
   const auto parameters = std::ssize(c.model.parameters);
   const QuadraticCuts prediction(c.model,
                                  {all.mean.head(parameters), all.covariance.topLeftCorner(parameters, parameters)});

@@ -1,5 +1,5 @@
 #pragma once
-// What observed cuts teach about the structure and the coefficients.
+// The calibration by observed cuts of the structure and the coefficients.
 
 #include <vector>
 
@@ -15,9 +15,9 @@ struct Likeliest {
   Eigen::VectorXd x;
   Eigen::MatrixXd covariance;  ///< inverse of PosteriorSlope::curvature
   double log_posterior = 0.0;
-  PredictedCuts predicted;     ///< there, with slopes
+  PredictedCuts predicted;  ///< there, with slopes
   int steps = 0;
-  bool converged = false;      ///< the last step would gain less than 1e-4 of ln p
+  bool converged = false;  ///< the last step would gain less than 1e-4 of ln p
 };
 
 /// A maximum of log_posterior() from a start, by steps of Gauss-Newton that are damped until they gain (Levenberg 1944,
@@ -32,9 +32,9 @@ struct Likeliest {
 /// One parameter, beforehand and after: mean and standard deviation of z and the value at the mean.
 struct LearnedParameter {
   milling::UncertainParameter parameter;
-  double before = 0.0, after = 0.0;  ///< the value, units of milling::value_of()
-  double mean = 0.0;                 ///< of z: by how many of its own standard deviations it moved
-  double deviation = 0.0;            ///< of z, 1 beforehand: how much narrower it became
+  double before = 0.0, after = 0.0;                    ///< the value, units of milling::value_of()
+  double mean = 0.0;                                   ///< of z: by how many of its own standard deviations it moved
+  double deviation = 0.0;                              ///< of z, 1 beforehand: how much narrower it became
   double laplace_mean = 0.0, laplace_deviation = 0.0;  ///< the same by Likeliest
   double r_hat = 0.0, effective_size = 0.0;
 };
@@ -58,15 +58,15 @@ struct Calibration {
   std::vector<Eigen::VectorXd> draws;  ///< x, of all chains
 };
 
-/// The posterior by chains whose cheap density has quadratic predictions (quadratic_cuts.hpp), fitted where short chains
-/// with the prediction linearised at the likeliest x have been. Throws InputError if there are no cuts or no uncertain
-/// parameters, and as predict(). Cost: likeliest(), and some three predictions a draw.
+/// The posterior by chains whose cheap density has quadratic predictions (quadratic_cuts.hpp), fitted where short
+/// chains with the prediction linearised at the likeliest x have been. Throws InputError if there are no cuts or no
+/// uncertain parameters, and as predict(). Cost: likeliest(), and some three predictions a draw.
 [[nodiscard]] Calibration calibrate(CutModel model, const ChainOptions& options);
 
 /// At most `count` cuts with the parameters of draws, evenly among all.
 [[nodiscard]] std::vector<milling::Cut> cuts_of_draws(const Calibration& calibration, std::size_t count);
 
-/// How many of the cuts that are stable or chatter are predicted rightly by likeliest() of the others: cut i is left
+/// The number of cuts that are stable or chatter and are predicted rightly by likeliest() of the others: cut i is left
 /// out in round i mod folds. A cut chatters if its margin there is positive. Cost: folds times that of likeliest().
 [[nodiscard]] milling::Score cross_validated(const CutModel& model, int folds);
 

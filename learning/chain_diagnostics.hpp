@@ -1,5 +1,5 @@
 #pragma once
-// Whether chains have drawn enough.
+// The worth of the draws of chains.
 
 #include <Eigen/Core>
 #include <vector>

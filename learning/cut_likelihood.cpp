@@ -68,8 +68,8 @@ PredictedCuts predict(const CutModel& model, const Eigen::VectorXd& z, bool with
   core::parallel_for(model.cuts.size(), [&](std::size_t i) {
     const auto row = static_cast<Index>(i);
     const milling::ObservedCut& cut = model.cuts[i];
-    const milling::MultiplierSlope at = milling::multiplier_slope(
-        model.nominal, model.parameters, z, {cut.spindle_speed_rpm, cut.depth_m}, with_slopes);
+    const milling::MultiplierSlope at = milling::multiplier_slope(model.nominal, model.parameters, z,
+                                                                  {cut.spindle_speed_rpm, cut.depth_m}, with_slopes);
     all.margin(row) = at.log_modulus / (at.period_s * decay);
     all.frequency_hz(row) = at.frequency_hz;
     if (!with_slopes) return;
@@ -81,8 +81,10 @@ PredictedCuts predict(const CutModel& model, const Eigen::VectorXd& z, bool with
 
 PredictedCuts linearised(const PredictedCuts& predicted, const Eigen::VectorXd& at, const Eigen::VectorXd& z) {
   const Eigen::VectorXd step = z - at;
-  return {predicted.margin + predicted.margin_slope * step, predicted.frequency_hz + predicted.frequency_slope * step,
-          {}, {}};
+  return {predicted.margin + predicted.margin_slope * step,
+          predicted.frequency_hz + predicted.frequency_slope * step,
+          {},
+          {}};
 }
 
 double log_posterior(const CutModel& model, const PredictedCuts& predicted, const Eigen::VectorXd& x) {

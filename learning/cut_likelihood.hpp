@@ -10,8 +10,8 @@
 namespace thinwall::learning {
 
 /// The cuts, the cut that is known beforehand, and how uncertain it is. The unknown x has the parameters' z
-/// (milling/observed/uncertain_cut.hpp) and, last, u of the noise κ = noise_median e^{noise_spread u}; beforehand all of
-/// them are independent standard normal numbers.
+/// (milling/observed/uncertain_cut.hpp) and, last, u of the noise κ = noise_median e^{noise_spread u}; beforehand all
+/// of them are independent standard normal numbers.
 struct CutModel {
   milling::Cut nominal;
   std::vector<milling::UncertainParameter> parameters;
@@ -19,14 +19,15 @@ struct CutModel {
   milling::StabilityOptions options;
   double noise_median = 0.3;
   double noise_spread = 0.7;
-  double frequency_deviation = 0.02;    ///< relative, of a chatter frequency that was heard
-  double frequency_outlier_share = 0.1; ///< of frequencies that another mode or harmonic gave
+  double frequency_deviation = 0.02;     ///< relative, of a chatter frequency that was heard
+  double frequency_outlier_share = 0.1;  ///< of frequencies that another mode or harmonic gave
 };
 
-/// What a structure and process say of the cuts: an entry a cut, and its derivative by each z, where that was asked for.
+/// The prediction of a structure and process for the cuts: an entry a cut, and its derivative by each z, where that was
+/// asked for.
 struct PredictedCuts {
-  Eigen::VectorXd margin;           ///< ln|μ| / (T d): −1 of a tool that does not cut, 0 on the boundary; d is the decay
-                                    ///< rate of the nominal structure's slowest pole, T the tooth period
+  Eigen::VectorXd margin;  ///< ln|μ| / (T d): −1 of a tool that does not cut, 0 on the boundary; d is the decay
+                           ///< rate of the nominal structure's slowest pole, T the tooth period
   Eigen::VectorXd frequency_hz;     ///< of the dominant multiplier
   Eigen::MatrixXd margin_slope;     ///< cuts × parameters
   Eigen::MatrixXd frequency_slope;  ///< cuts × parameters, Hz

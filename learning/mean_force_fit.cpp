@@ -31,7 +31,7 @@ Eigen::Matrix<double, 2, 4> across_axis(int teeth, const MeanForceTest& test) {
   return teeth * test.depth_m / (2.0 * pi) * A;
 }
 
-/// The same along the axis: columns K_a, K_ae.
+/// The means along the axis: columns K_a, K_ae.
 Eigen::RowVector2d along_axis(int teeth, const MeanForceTest& test) {
   const auto [from, to] = test.engagement;
   const double s = std::cos(from) - std::cos(to);
@@ -77,7 +77,8 @@ Solved solve(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const std::vect
          << ", must be below " << largest_condition << "); " << test_to_add(tests);
     throw core::InputError(text.str());
   }
-  const Eigen::MatrixXd inverse = eigen.eigenvectors() * values.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
+  const Eigen::MatrixXd inverse =
+      eigen.eigenvectors() * values.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
   Eigen::VectorXd y = inverse * (scaled.transpose() * b);
   y += inverse * (scaled.transpose() * (b - scaled * y));  // takes off what squaring the condition cost
   solved.x = y.cwiseQuotient(length);
@@ -124,10 +125,16 @@ CoefficientFit fit_mean_forces(int teeth, const std::vector<MeanForceTest>& test
   const Solved across = solve(A, b, tests), along = solve(axial, z, tests);
   const double residual = across.residual_square + along.residual_square;
   const double scatter = (forces.colwise() - forces.rowwise().mean()).squaredNorm();
-  return {coefficient_of(across, 0), coefficient_of(across, 1), coefficient_of(along, 0),
-          coefficient_of(across, 2), coefficient_of(across, 3), coefficient_of(along, 1),
+  return {coefficient_of(across, 0),
+          coefficient_of(across, 1),
+          coefficient_of(along, 0),
+          coefficient_of(across, 2),
+          coefficient_of(across, 3),
+          coefficient_of(along, 1),
           scatter > 0.0 ? 1.0 - residual / scatter : 1.0,
-          std::sqrt(residual / static_cast<double>(3 * count)), across.condition, across.degrees_of_freedom};
+          std::sqrt(residual / static_cast<double>(3 * count)),
+          across.condition,
+          across.degrees_of_freedom};
 }
 
 double student_quantile(double share, double n) {

@@ -12,9 +12,9 @@ namespace thinwall::learning {
 /// A cut whose mean force over a turn was measured.
 struct MeanForceTest {
   milling::Engagement engagement;
-  double depth_m = 0.0;                                  ///< axial
-  double feed_per_tooth_m = 0.0;                         ///< mean over the teeth
-  Eigen::Vector3d force_n = Eigen::Vector3d::Zero();     ///< on the tool, tool axes: feed, normal, axis
+  double depth_m = 0.0;                               ///< axial
+  double feed_per_tooth_m = 0.0;                      ///< mean over the teeth
+  Eigen::Vector3d force_n = Eigen::Vector3d::Zero();  ///< on the tool, tool axes: feed, normal, axis
 };
 
 /// One coefficient with its uncertainty, N/m² or N/m.
@@ -44,9 +44,9 @@ struct CoefficientFit {
 
 /// The coefficients by linear least squares: K_t, K_r, K_te, K_re from the forces across the axis, K_a and K_ae from
 /// those along it, each with the variance of its own residuals. With n = 2 N − 4 degrees of freedom (N − 2 along the
-/// axis) the interval is t_{0.975, n} standard deviations; it is infinite where n = 0. Throws InputError for a bad test,
-/// or where the tests do not tell the coefficients apart (a condition above 1e8), with the condition and the test to
-/// add. Cost O(tests).
+/// axis) the interval is t_{0.975, n} standard deviations; it is infinite where n = 0. Throws InputError for a bad
+/// test, or where the tests do not tell the coefficients apart (a condition above 1e8), with the condition and the test
+/// to add. Cost O(tests).
 [[nodiscard]] CoefficientFit fit_mean_forces(int teeth, const std::vector<MeanForceTest>& tests);
 
 /// The t for which a share of Student's distribution with that many degrees of freedom lies below, 0.5 < share < 1, by

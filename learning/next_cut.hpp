@@ -17,7 +17,7 @@ struct NextCut {
   double deviation_after = 0.0;   ///< expected: root of the mean variance over both outcomes
 };
 
-/// Of the `candidates` the one that minimises the expected variance of ln w at the wanted speed,
+/// The one of the `candidates` that minimises the expected variance of ln w at the wanted speed,
 ///
 ///     E Var = P Var(ln w | chatter) + (1 − P) Var(ln w | stable)
 ///

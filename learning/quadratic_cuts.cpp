@@ -29,7 +29,8 @@ Eigen::RowVectorXd terms_of(const Eigen::VectorXd& y) {
 QuadraticCuts::QuadraticCuts(const CutModel& model, const Region& region) : region_(region) {
   constexpr double wider = 1.5, ridge = 1e-6;
   const Eigen::LLT<Eigen::MatrixXd> factors(region.covariance);
-  if (factors.info() != Eigen::Success) throw core::InputError("quadratic cuts: the covariance is not positive definite");
+  if (factors.info() != Eigen::Success)
+    throw core::InputError("quadratic cuts: the covariance is not positive definite");
   L_ = factors.matrixL();
   const Index unknowns = terms_of(region.mean).size(), places = 5 * unknowns, cuts = std::ssize(model.cuts);
   std::mt19937 random(1);

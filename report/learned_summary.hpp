@@ -1,5 +1,5 @@
 #pragma once
-// What the cuts that were made taught: as a section of summary.json, as a table, in words.
+// The lesson of the cuts that were made: as a section of summary.json, as a table, in words.
 
 #include <filesystem>
 #include <string>

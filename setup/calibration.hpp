@@ -1,5 +1,5 @@
 #pragma once
-// How a chart learns from the cuts that were made.
+// The calibration of a chart by the cuts that were made.
 
 #include <optional>
 

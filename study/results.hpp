@@ -204,7 +204,7 @@ struct PointStability {
   std::vector<ParameterSensitivity> sensitivities;  ///< of the boundary in depth, largest first; by the direct method
 };
 
-/// What an uncertain prediction says of a cut.
+/// The verdict of an uncertain prediction on a cut.
 enum class Certainty { certainly_stable, open, certainly_unstable };
 
 /// A cut that was made, and what a chart says of it.
@@ -216,7 +216,7 @@ struct JudgedCut {
   std::optional<bool> textbook_stable;        ///< by the zeroth-order method; none: it cannot take the cut
 };
 
-/// What the cuts that were made taught of a chart.
+/// A chart after the cuts that were made taught it.
 struct LearnedChart {
   /// The limits of the draws at one speed, m.
   struct Row {

@@ -15,7 +15,7 @@ struct ValidateRequest {
   bool check = false;                       ///< compares instead of writing
 };
 
-/// What the command found.
+/// The findings of the command.
 struct Validation {
   std::string text;          ///< for the terminal
   bool page_is_true = true;  ///< false: with `check`, the page differs from what the cases give now

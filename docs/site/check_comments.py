@@ -13,7 +13,7 @@ import re
 import sys
 
 FOLDERS = ("core", "dynamics", "linalg", "mesh", "fem", "reduction", "robot", "coupling", "regression", "identification",
-           "milling", "posture", "io", "case", "setup", "study", "report", "app", "thinwall", "python")
+           "milling", "learning", "posture", "io", "case", "setup", "study", "report", "app", "thinwall", "python")
 FIRST_WORDS = re.compile(r"(What|Where|How|Whether|The same|Of the)\b")
 COMMENT = re.compile(r"\s*(///?)(?:\s+(.*))?$")
 MOST = 20

@@ -10,7 +10,7 @@
 
 namespace thinwall::milling {
 
-/// What was seen of a cut: no chatter, chatter, or neither clearly.
+/// The outcome of a cut: no chatter, chatter, or neither clearly.
 enum class CutOutcome { stable, chatter, marginal };
 
 /// A cut that was made.

@@ -12,7 +12,7 @@
 
 namespace thinwall::milling {
 
-/// What one uncertain parameter is of.
+/// The quantity that one uncertain parameter is.
 enum class ParameterOf { frequency, damping_ratio, mass, K_t, K_r, K_a };
 
 /// One uncertain parameter, p = p₀ e^{s z} with z standard normal: s is its relative standard uncertainty, to first

@@ -86,7 +86,7 @@ void fields(Visitor& visit, Section& row) {
   visit(Field{"stable_95_m", Kind::length, "with 95 %"}, row.stable_95_m);
 }
 
-/// What the cuts taught.
+/// The lesson of the cuts.
 struct LearnedSummary {
   std::vector<LearnedParameterSummary> parameters;
   double noise = 0.0;

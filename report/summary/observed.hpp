@@ -76,7 +76,7 @@ void fields(Visitor& visit, Section& share) {
   visit(Field{"high", Kind::ratio, "upper end"}, share.high);
 }
 
-/// What a prediction with its uncertainty is worth.
+/// The worth of a prediction with its uncertainty.
 struct CertaintySummary {
   int certainly_stable = 0, certainly_stable_that_chattered = 0;
   int open = 0;

@@ -12,7 +12,7 @@ namespace thinwall::study {
 [[nodiscard]] learning::CutModel cut_model(const setup::CutSetup& source, const milling::Cut& nominal,
                                            const milling::StabilityOptions& options);
 
-/// What [calibration] asks for: the posterior, the share of cuts that are predicted rightly before and, with folds, by
+/// The answer to [calibration]: the posterior, the share of cuts that are predicted rightly before and, with folds, by
 /// what the others teach, the limits of the draws over the speeds of the chart, and the next cut for one speed. Throws
 /// InputError as learning::calibrate(). Cost: that of the posterior, and some thousand rows.
 [[nodiscard]] LearnedChart learned_chart(const setup::CutSetup& source, const milling::Cut& nominal,

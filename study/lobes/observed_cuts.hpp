@@ -9,13 +9,13 @@
 
 namespace thinwall::study {
 
-/// What the draws of [lobes.uncertainty] say of every cut, in their order: the share of `judged_draws` of them that
+/// The word of the draws of [lobes.uncertainty] on every cut, in their order: the share of `judged_draws` of them that
 /// chatter (milling/observed/chatter_probability.hpp). Empty where nothing is uncertain or there are no cuts.
 [[nodiscard]] std::vector<double> chatter_probabilities(const setup::CutSetup& source, const milling::Cut& nominal,
                                                         const milling::StabilityOptions& options);
 
-/// What the textbook's method, milling::Method::zeroth_order, says of every cut, in their order: true if it is stable.
-/// Empty where that method cannot take the cut, or there are no cuts. Cost: a row for each speed.
+/// The word of the textbook's method, milling::Method::zeroth_order, on every cut, in their order: true if it is
+/// stable. Empty where that method cannot take the cut, or there are no cuts. Cost: a row for each speed.
 [[nodiscard]] std::vector<bool> textbook_verdicts(const setup::CutSetup& source, const milling::Cut& nominal,
                                                   const milling::MethodOptions& options);
 

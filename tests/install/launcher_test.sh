@@ -19,7 +19,7 @@ stand_in() {  # name, body
 # shellcheck disable=SC2016
 set_up() {
   rm -rf "${tree:?}"/*
-  mkdir -p "$tree/bin" "$tree"/{core,dynamics,linalg,mesh,fem,reduction,robot,coupling,regression,identification,milling,posture,io,setup,case,study,report,web/dist,app,cmake}
+  mkdir -p "$tree/bin" "$tree"/{core,dynamics,linalg,mesh,fem,reduction,robot,coupling,regression,identification,milling,learning,posture,io,setup,case,study,report,web/dist,app,cmake}
   touch "$calls" "$installed" "$tree"/{CMakeLists.txt,CMakePresets.json,web/template.html} "$tree"/core/{error,interrupt}.hpp
   cp "$here/../../thinwall" "$here/../../packages.txt" "$tree"
   stand_in dpkg-query 'grep -qx "${@: -1}" "$installed" && printf installed'
