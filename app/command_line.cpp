@@ -29,7 +29,7 @@
 #include "core/units.hpp"
 #include "report/compare.hpp"
 #include "report/compared_answers.hpp"
-#include "report/lobes_report.hpp"
+#include "report/lobes/lobes_report.hpp"
 #include "report/page/page.hpp"
 #include "report/page/phases.hpp"
 #include "report/postures/posture_summary.hpp"

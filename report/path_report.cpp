@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "report/finite_number.hpp"
-#include "report/lobes_words.hpp"
+#include "report/lobes/lobes_words.hpp"
 #include "report/robot_report.hpp"
 #include "study/support/robot_survey.hpp"
 

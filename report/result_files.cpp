@@ -20,7 +20,7 @@
 #include "report/coherence_files.hpp"
 #include "report/damping_files.hpp"
 #include "report/error_summary.hpp"
-#include "report/lobes_files.hpp"
+#include "report/lobes/lobes_files.hpp"
 #include "report/robot_report.hpp"
 #include "report/shape_files.hpp"
 #include "report/simulation/simulation_files.hpp"

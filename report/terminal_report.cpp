@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "report/contact_report.hpp"
-#include "report/lobes_answers.hpp"
-#include "report/lobes_report.hpp"
-#include "report/lobes_words.hpp"
+#include "report/lobes/lobes_answers.hpp"
+#include "report/lobes/lobes_report.hpp"
+#include "report/lobes/lobes_words.hpp"
 #include "report/mesh_answer.hpp"
 #include "report/page/limit_text.hpp"
 #include "report/path_report.hpp"

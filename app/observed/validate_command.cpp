@@ -9,7 +9,7 @@
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "report/observed_summary.hpp"
+#include "report/lobes/observed_summary.hpp"
 #include "report/result_folder.hpp"
 #include "report/validation/validation_chart.hpp"
 #include "report/validation/validation_page.hpp"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "report/lobes_answers.hpp"
-#include "report/lobes_words.hpp"
+#include "report/lobes/lobes_answers.hpp"
+#include "report/lobes/lobes_words.hpp"
 #include "report/page/limit_text.hpp"
 
 namespace thinwall::report {

@@ -7,7 +7,7 @@
 
 #include "core/units.hpp"
 #include "core/words.hpp"
-#include "report/lobes_words.hpp"
+#include "report/lobes/lobes_words.hpp"
 
 namespace thinwall::report {
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "report/observed_summary.hpp"
+#include "report/lobes/observed_summary.hpp"
 
 namespace thinwall::report {
 

@@ -16,7 +16,7 @@
 #include "core/atomic_file.hpp"
 #include "io/results/csv_table.hpp"
 #include "milling/chart/lobe_method.hpp"
-#include "report/lobes_answers.hpp"
+#include "report/lobes/lobes_answers.hpp"
 #include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::tests::chart_choices_test {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "report/lobes_answers.hpp"
+#include "report/lobes/lobes_answers.hpp"
 
 namespace thinwall::report::headline_test {
 namespace {

@@ -1,12 +1,12 @@
-#include "report/lobes_summary.hpp"
+#include "report/lobes/lobes_summary.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
 #include "report/finite_number.hpp"
-#include "report/learned_summary.hpp"
-#include "report/observed_summary.hpp"
+#include "report/lobes/learned_summary.hpp"
+#include "report/lobes/observed_summary.hpp"
 
 namespace thinwall::report {
 

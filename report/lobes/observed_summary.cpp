@@ -1,4 +1,4 @@
-#include "report/observed_summary.hpp"
+#include "report/lobes/observed_summary.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

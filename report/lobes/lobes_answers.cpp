@@ -1,4 +1,4 @@
-#include "report/lobes_answers.hpp"
+#include "report/lobes/lobes_answers.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -7,10 +7,10 @@
 #include <iterator>
 #include <utility>
 
-#include "report/learned_summary.hpp"
-#include "report/lobes_words.hpp"
+#include "report/lobes/learned_summary.hpp"
+#include "report/lobes/lobes_words.hpp"
+#include "report/lobes/observed_summary.hpp"
 #include "report/mesh_answer.hpp"
-#include "report/observed_summary.hpp"
 
 namespace thinwall::report {
 

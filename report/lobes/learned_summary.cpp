@@ -1,4 +1,4 @@
-#include "report/learned_summary.hpp"
+#include "report/lobes/learned_summary.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/results/csv_table.hpp"
-#include "report/observed_summary.hpp"
+#include "report/lobes/observed_summary.hpp"
 
 namespace thinwall::report {
 

@@ -1,4 +1,4 @@
-#include "report/lobes_files.hpp"
+#include "report/lobes/lobes_files.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -10,8 +10,8 @@
 
 #include "io/results/csv_table.hpp"
 #include "milling/direct/stability.hpp"
-#include "report/learned_summary.hpp"
-#include "report/observed_summary.hpp"
+#include "report/lobes/learned_summary.hpp"
+#include "report/lobes/observed_summary.hpp"
 
 namespace thinwall::report {
 

@@ -1,11 +1,11 @@
-#include "report/lobes_report.hpp"
+#include "report/lobes/lobes_report.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
 
-#include "report/lobes_answers.hpp"
-#include "report/lobes_words.hpp"
+#include "report/lobes/lobes_answers.hpp"
+#include "report/lobes/lobes_words.hpp"
 #include "report/page/limit_text.hpp"
 #include "report/path_report.hpp"
 

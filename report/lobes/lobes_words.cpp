@@ -1,4 +1,4 @@
-#include "report/lobes_words.hpp"
+#include "report/lobes/lobes_words.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
