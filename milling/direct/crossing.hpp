@@ -37,8 +37,8 @@ struct Eigenpair {
 /// the next eigenvalue.
 [[nodiscard]] Eigenpair eigenpair_near(const GainOnCircle& gain, double theta_rad, std::complex<double> guess);
 
-/// The eigenvalue −lᵀ Z r / lᵀ r that the vectors of a pair give of a gain near by with the same contacts: exact to
-/// first order in the change of Z.
+/// The eigenvalue −lᵀ Z r / lᵀ r that the vectors of a pair give of a gain near by with the same contacts, exact to
+/// first order in the change of Z; of that change alone, it is the change of ν.
 [[nodiscard]] std::complex<double> rayleigh_quotient(const Eigenpair& pair, const Eigen::MatrixXcd& Z);
 
 /// Brings a crossing to the axis: on the boundary det(I + w Z(e^{iθ})) = 0, so that 1/w is a real positive eigenvalue

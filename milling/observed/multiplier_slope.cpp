@@ -48,7 +48,7 @@ Eigen::VectorXcd log_multiplier_by_z(const Cut& nominal, const std::vector<Uncer
     const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(z.size(), i);
     const Eigen::MatrixXcd change =
         (gain(cut_at(nominal, parameters, z + step)) - gain(cut_at(nominal, parameters, z - step))) / (2.0 * h);
-    by(i) = -complex<double>(0.0, 1.0) * first_order_change(pair, change) / pair.slope;
+    by(i) = -complex<double>(0.0, 1.0) * rayleigh_quotient(pair, change) / pair.slope;
   }
   return by;
 }
