@@ -17,7 +17,7 @@ namespace {
 
 constexpr double coarsest_turn_rad = 0.5;
 constexpr double smaller_per_level = 1.5;
-constexpr double share_of_wave = 0.2;
+constexpr double share_of_wave = 0.15;
 constexpr double sharp_rad = 0.5235987755982988;  // 30°
 
 void validate(const ClosedPartOptions& o) {
@@ -36,9 +36,9 @@ bool ends_within_a_face(const Support& support) {
   return !std::holds_alternative<mesh::PlaneRegion>(support.region);
 }
 
-/// About the length of a bending wave of the highest mode wanted, m. Of a plate of area A N modes have waves longer than
-/// λ = (π A / N)^½ (Cremer, Heckl & Petersson 2005), and free edges lower their frequencies by 0.6; A is half of the
-/// surface. 0 if modes are wanted up to a frequency.
+/// About the length of a bending wave of the highest mode wanted, m. Of a plate of area A N modes have waves longer
+/// than λ = (π A / N)^½ (Cremer, Heckl & Petersson 2005), and free edges lower their frequencies by 0.6; A is half of
+/// the surface. 0 if modes are wanted up to a frequency.
 double bending_wavelength(const mesh::TriangleSurface& surface, const ModeOptions& modes) {
   if (modes.up_to_hz) return 0.0;
   double area = 0.0;

@@ -19,15 +19,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double flat = 1e-6;                  // of the diagonal: distance of a plane face's vertices from its plane
-constexpr double opposite = -1.0 + 5e-7;       // cosine between the normals of two parallel sides
-constexpr double thickest = 1.0 / 3.0;         // of the triangles' edges
-constexpr double slide = 0.4;                  // of the shorter edge beside a vertex on a straight line
-constexpr double slide_round = 0.55;           // likewise on a curve, where a regular polygon may have to turn
-constexpr double straight = 1e-4;              // sine of the turn of a straight line
-constexpr double smooth = 0.85;                // cosine of the turn of a curve
-constexpr double off_the_chord = 0.4;          // distance from a curve's chord over that along it
-constexpr double least_gap = 0.2;              // of the wall's thickness, between borders that do not touch
+constexpr double flat = 1e-6;             // of the diagonal: distance of a plane face's vertices from its plane
+constexpr double opposite = -1.0 + 5e-7;  // cosine between the normals of two parallel sides
+constexpr double thickest = 1.0 / 3.0;    // of the triangles' edges
+constexpr double slide = 0.4;             // of the shorter edge beside a vertex on a straight line
+constexpr double slide_round = 0.55;      // likewise on a curve, where a regular polygon may have to turn
+constexpr double straight = 1e-4;         // sine of the turn of a straight line
+constexpr double smooth = 0.85;           // cosine of the turn of a curve
+constexpr double off_the_chord = 0.4;     // distance from a curve's chord over that along it
+constexpr double least_gap = 0.2;         // of the wall's thickness, between borders that do not touch
 constexpr int passes = 3;
 
 std::size_t at(int i) {

@@ -33,7 +33,7 @@ double cross(const Vector2d& a, const Vector2d& b) {
 struct Segment {
   std::size_t face = 0;
   std::array<int, 2> vertices{};
-  int from = 0, to = 0;                       // points
+  int from = 0, to = 0;                        // points
   std::vector<std::pair<double, int>> cuts{};  // parameter and point
 };
 
@@ -202,13 +202,14 @@ std::vector<std::array<int, 3>> within(Delaunay& delaunay, const std::set<Pair>&
   std::vector<std::array<int, 3>> triangles;
   for (std::size_t i = 0; i < queue.size(); ++i) {
     const auto face = queue[i];
-    if (face->info() == 1) triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+    if (face->info() == 1)
+      triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
     for (int k = 0; k < 3; ++k) {
       const auto next = face->neighbor(k);
       if (next->info() >= 0) continue;
       const auto a = face->vertex(Delaunay::ccw(k)), b = face->vertex(Delaunay::cw(k));
-      const bool crosses = !delaunay.is_infinite(a) && !delaunay.is_infinite(b) &&
-                           border.contains(std::minmax(a->info(), b->info()));
+      const bool crosses =
+          !delaunay.is_infinite(a) && !delaunay.is_infinite(b) && border.contains(std::minmax(a->info(), b->info()));
       next->info() = crosses ? 1 - face->info() : face->info();
       queue.push_back(next);
     }

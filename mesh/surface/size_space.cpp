@@ -133,8 +133,7 @@ SizeSpace::Patch SizeSpace::make_patch(int patch, const SurfaceFeatures& feature
     const auto& sides = features.lines[l].patches;
     if (sides[0] == patch || sides[1] == patch) result.lines.push_back(static_cast<int>(l));
   }
-  const double wanted =
-      std::max(thicknesses_per_size * result.thickness, result.planar ? size.least_plane_m : 0.0);
+  const double wanted = std::max(thicknesses_per_size * result.thickness, result.planar ? size.least_plane_m : 0.0);
   const double automatic = std::min(wanted, diagonal(surface_) / smallest_sizes_per_diagonal);
   result.size = size.scale * (size.size_m > 0.0 ? size.size_m : automatic);
   const double width = size.layer_width_m > 0.0 ? size.layer_width_m : result.thickness;

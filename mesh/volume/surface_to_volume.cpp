@@ -25,6 +25,7 @@ constexpr double walls_per_isotropic_element = 1.5;
 constexpr double walls_off_the_surface = 0.02;  // of isotropic facets; finer ones make 50 times as many elements
 constexpr double smallest_turn_rad = 0.01;
 constexpr double samples_per_diagonal = 100.0;
+constexpr double share_of_tetgen = 0.25;  // of the time that a mesher has; it ends within seconds or not at all
 
 void validate(const SurfaceMeshOptions& options) {
   validate(options.size);
@@ -160,12 +161,14 @@ std::vector<VolumeMesher> volume_meshers(const TriangleSurface& surface, const S
   std::vector<VolumeMesher> meshers;
   double shorter = 1.0;
   double straighter = 1.0;
+  SurfaceMeshOptions of_tetgen = options;
+  of_tetgen.limits.time_s *= share_of_tetgen;
   for (int attempt = 0; attempt < 3; ++attempt, shorter *= 0.8, straighter *= 0.7) {
     SurfaceSize size = options.size;
     size.scale *= shorter;
     size.turn_rad = std::max(smallest_turn_rad, size.turn_rad * straighter);
-    meshers.push_back({"TetGen", [part, size, options](const TriangleSurface& input) {
-                         return fill_remeshed(input, *part, size, options);
+    meshers.push_back({"TetGen", [part, size, of_tetgen](const TriangleSurface& input) {
+                         return fill_remeshed(input, *part, size, of_tetgen);
                        }});
   }
   DelaunayVolumeOptions delaunay;
