@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "mesh/surface/plane_overlay.hpp"
-#include "mesh/surface/triangle_tree.hpp"
 
 namespace thinwall::mesh {
 
@@ -83,24 +82,50 @@ struct Walls {
   double thickness = 0.0;  // of the thinnest, m
 };
 
-/// The walls of the surface: rays from the triangles of a plane face into the material find the other side.
+/// The directed edges of a patch that another patch has on its other side.
+std::vector<std::array<int, 2>> border(const Remeshed& r, const PlaneFace& face) {
+  std::set<std::array<int, 2>> edges;
+  for (const int t : face.triangles) {
+    const auto& v = r.surface.triangles[at(t)];
+    for (std::size_t k = 0; k < 3; ++k) edges.insert({v[k], v[(k + 1) % 3]});
+  }
+  std::vector<std::array<int, 2>> result;
+  for (const auto& [a, b] : edges)
+    if (!edges.contains({b, a})) result.push_back({a, b});
+  return result;
+}
+
+/// The thickness of the wall between two plane faces: their distance, if they are parallel with material between, not
+/// too far from each other for the first one's triangles, and a triangle of the first has its centroid before the
+/// second.
+std::optional<double> wall_between(const Remeshed& r, const PlaneFace& one, const PlaneFace& other) {
+  const double thickness = one.offset + other.offset;
+  if (one.normal.dot(other.normal) > opposite || !(thickness > 0.0) || thickness > thickest * one.edge)
+    return std::nullopt;
+  Eigen::Matrix<double, 2, 3> axes;
+  axes.row(0) = one.normal.unitOrthogonal().transpose();
+  axes.row(1) = one.normal.cross(axes.row(0).transpose()).transpose();
+  std::vector<std::array<Eigen::Vector2d, 2>> edges;
+  for (const auto& [a, b] : border(r, other))
+    edges.push_back({axes * r.surface.vertices[at(a)], axes * r.surface.vertices[at(b)]});
+  const bool covered = std::any_of(one.triangles.begin(), one.triangles.end(),
+                                   [&](int t) { return is_within(edges, axes * centroid(r.surface, t)); });
+  return covered ? std::optional(thickness) : std::nullopt;
+}
+
+/// The walls of the surface.
 std::vector<Walls> walls_of(const Remeshed& r, const std::vector<PlaneFace>& faces) {
-  const TriangleTree tree(r.surface);
   std::vector<int> group(faces.size());
   std::iota(group.begin(), group.end(), 0);
   std::vector<double> thickness(faces.size(), std::numeric_limits<double>::infinity());
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    if (!faces[f].plane) continue;
-    for (const int t : faces[f].triangles) {
-      const Vector3d from = centroid(r.surface, t);
-      const auto distance = tree.first_hit(from, -faces[f].normal, t);
-      if (!distance || !(*distance <= thickest * faces[f].edge)) continue;
-      const auto hit = tree.nearest(from - *distance * faces[f].normal);
-      const auto other = at(r.patch_of_triangle[at(hit.triangle)]);
-      if (!faces[other].plane || faces[other].normal.dot(faces[f].normal) > opposite) continue;
-      const int from_group = group[other], to_group = group[f];
+    for (std::size_t g = 0; g < faces.size(); ++g) {
+      if (g == f || !faces[f].plane || !faces[g].plane) continue;
+      const auto wall = wall_between(r, faces[f], faces[g]);
+      if (!wall) continue;
+      const int from_group = group[g], to_group = group[f];
       std::replace(group.begin(), group.end(), from_group, to_group);
-      thickness[f] = std::min(thickness[f], *distance);
+      thickness[f] = std::min(thickness[f], *wall);
     }
   }
   std::map<int, Walls> walls;
@@ -112,19 +137,6 @@ std::vector<Walls> walls_of(const Remeshed& r, const std::vector<PlaneFace>& fac
   std::vector<Walls> result;
   for (auto& [number, wall] : walls)
     if (wall.patches.size() > 1) result.push_back(std::move(wall));
-  return result;
-}
-
-/// The directed edges of a patch that another patch has on its other side.
-std::vector<std::array<int, 2>> border(const Remeshed& r, const PlaneFace& face) {
-  std::set<std::array<int, 2>> edges;
-  for (const int t : face.triangles) {
-    const auto& v = r.surface.triangles[at(t)];
-    for (std::size_t k = 0; k < 3; ++k) edges.insert({v[k], v[(k + 1) % 3]});
-  }
-  std::vector<std::array<int, 2>> result;
-  for (const auto& [a, b] : edges)
-    if (!edges.contains({b, a})) result.push_back({a, b});
   return result;
 }
 

@@ -12,9 +12,10 @@
 
 namespace thinwall::mesh {
 
+using Eigen::Vector2d;
+
 namespace {
 
-using Eigen::Vector2d;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
 using FaceBase =
@@ -123,15 +124,11 @@ bool keeps_gap(const Drawing& s) {
   });
 }
 
-/// True if p lies within a face (crossing number of a ray along x).
+/// True if p lies within a face.
 bool covers(const PlaneSide& face, const Vector2d& p) {
-  bool inside = false;
-  for (const auto& [from, to] : face.border) {
-    const Vector2d &a = face.place.at(from), &b = face.place.at(to);
-    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-    if (p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
-  }
-  return inside;
+  std::vector<std::array<Vector2d, 2>> edges;
+  for (const auto& [a, b] : face.border) edges.push_back({face.place.at(a), face.place.at(b)});
+  return is_within(edges, p);
 }
 
 /// True if p lies within an upper face.
@@ -218,6 +215,15 @@ std::vector<std::array<int, 3>> within(Delaunay& delaunay, const std::set<Pair>&
 }
 
 }  // namespace
+
+bool is_within(const std::vector<std::array<Vector2d, 2>>& border, const Vector2d& p) {
+  bool inside = false;
+  for (const auto& [a, b] : border) {
+    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+    if (p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
+  }
+  return inside;
+}
 
 std::optional<Overlay> plane_overlay(const PlaneSides& sides) {
   Drawing s{sides};

@@ -37,6 +37,9 @@ struct Overlay {
   std::vector<OverlaidFace> faces{};
 };
 
+/// True if p lies within a border of edges in any order (crossing number of a ray along x). Cost O(edges).
+[[nodiscard]] bool is_within(const std::vector<std::array<Eigen::Vector2d, 2>>& border, const Eigen::Vector2d& p);
+
 /// The overlay: the borders of all faces cut each other, and a constrained Delaunay triangulation of all of them, with
 /// the interior vertices of the upper faces and those of the lower ones beside them, is given to each face as far as it
 /// reaches. Empty if points or borders come closer to each other than least_gap without touching. Cost O(n²) for n
