@@ -133,12 +133,12 @@ double error_ratio(int order, double exponent) {
 
 /// The error of the last order over the last change: r / (1 − r) by the law of error_ratio(). Beside a re-entrant edge
 /// the last two changes on one mesh may have a ratio q below r. Then the change has a smooth share, too, which falls by
-/// ρ = 1/10 an order where the singular one falls by r (docs/theory/elements.md): of the last change the share s = r (q
-/// − ρ) / (q (r − ρ)) is singular, and the error is s r / (1 − r) + (1 − s) ρ / (1 − ρ), at least as the other edges
-/// have it.
+/// ρ = 1/30 an order, the most that was seen, where the singular one falls by r (docs/theory/elements.md): of the last
+/// change the share s = r (q − ρ) / (q (r − ρ)) is singular, and the error is s r / (1 − r) + (1 − s) ρ / (1 − ρ), at
+/// least as the other edges have it.
 double error_over_change(const std::vector<RefinementStep>& steps, std::optional<double> RefinementStep::*change,
                          const Exponent& exponent) {
-  constexpr double smooth = 0.1;
+  constexpr double smooth = 1.0 / 30.0;
   const RefinementStep& last = steps.back();
   const double r = error_ratio(last.order, exponent.least), others = error_ratio(last.order, exponent.otherwise);
   const double singular = r / (1.0 - r);
