@@ -88,7 +88,7 @@ void require_memory(double bytes, const std::string& stage) {
 }
 
 void keep_freed_memory() {
-  mallopt(M_MMAP_MAX, 0);  // otherwise blocks above 32 MB are given back to the system, whatever the threshold
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the largest that the allocator takes
   mallopt(M_TRIM_THRESHOLD, -1);
 }
 

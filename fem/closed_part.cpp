@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -16,6 +17,7 @@ namespace {
 
 constexpr double coarsest_turn_rad = 0.5;
 constexpr double smaller_per_level = 1.5;
+constexpr double share_of_wave = 0.15;
 constexpr double sharp_rad = 0.5235987755982988;  // 30°
 
 void validate(const ClosedPartOptions& o) {
@@ -34,12 +36,25 @@ bool ends_within_a_face(const Support& support) {
   return !std::holds_alternative<mesh::PlaneRegion>(support.region);
 }
 
+/// About the length of a bending wave of the highest mode wanted, m. Of a plate of area A N modes have waves longer
+/// than λ = (π A / N)^½ (Cremer, Heckl & Petersson 2005), and free edges lower their frequencies by 0.6; A is half of
+/// the surface. 0 if modes are wanted up to a frequency.
+double bending_wavelength(const mesh::TriangleSurface& surface, const ModeOptions& modes) {
+  if (modes.up_to_hz) return 0.0;
+  double area = 0.0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    area += 0.5 * mesh::area_vector(surface, static_cast<int>(t)).norm();
+  return std::sqrt(std::numbers::pi * area / (0.6 * std::max(1, modes.count)));
+}
+
 /// The options of the mesher at a level, as solid_part() describes them.
-mesh::SurfaceMeshOptions mesh_options(const ClosedPartOptions& options, int level) {
+mesh::SurfaceMeshOptions mesh_options(const mesh::TriangleSurface& surface, const ClosedPartOptions& options,
+                                      int level) {
   mesh::SurfaceMeshOptions result;
   for (const Support& support : options.supports)
     if (ends_within_a_face(support)) result.size.refined.push_back(support.region);
   result.size.layers = std::min(4, level + (result.size.refined.empty() ? 0 : 1));
+  if (result.size.layers == 0) result.size.least_plane_m = share_of_wave * bending_wavelength(surface, options.modes);
   result.size.scale = std::pow(smaller_per_level, -level);
   result.size.turn_rad = coarsest_turn_rad * std::pow(2.0, -level);
   result.volume_tolerance = share_of_surface * options.tolerance;
@@ -51,11 +66,11 @@ mesh::SurfaceMeshOptions mesh_options(const ClosedPartOptions& options, int leve
 /// large.
 mesh::SurfaceMeshed meshed(const mesh::TriangleSurface& surface, const ClosedPartOptions& options, int level) {
   try {
-    return mesh::mesh_closed_surface(surface, mesh_options(options, level));
+    return mesh::mesh_closed_surface(surface, mesh_options(surface, options, level));
   } catch (const core::NumericalError&) {
     if (level == 0) throw;
   }
-  mesh::SurfaceMeshOptions other = mesh_options(options, 0);
+  mesh::SurfaceMeshOptions other = mesh_options(surface, options, 0);
   other.size.scale = std::pow(0.7, level);
   return mesh::mesh_closed_surface(surface, other);
 }

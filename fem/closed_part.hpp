@@ -70,10 +70,11 @@ struct [[nodiscard]] ClosedPart {
 };
 
 /// The part whose mesh(level) is mesh::mesh_closed_surface with edges of 9 wall thicknesses (one element through the
-/// wall) divided by 1.5^level, `level` graded layers beside sharp edges (one more if a support ends within a face) and
-/// a turning angle of 0.5 / 2^level rad along an edge, finer if the volume requires it (tolerance 0.2 · tolerance). If
-/// a finer level cannot be meshed, elements of the first level made 0.7^level times as large are used instead. The fit
-/// of each mesh is appended to `fits`, which must outlive the part, as must `surface` and `options`.
+/// wall), on plane faces at least 0.15 bending waves of the highest of `count` modes where there are no layers, divided
+/// by 1.5^level, `level` graded layers beside sharp edges (one more if a support ends within a face) and a turning
+/// angle of 0.5 / 2^level rad along an edge, finer if the volume requires it (tolerance 0.2 · tolerance). If a finer
+/// level cannot be meshed, elements of the first level made 0.7^level times as large are used instead. The fit of each
+/// mesh is appended to `fits`, which must outlive the part, as must `surface` and `options`.
 [[nodiscard]] SolidPart solid_part(const mesh::TriangleSurface& surface, const Material& material,
                                    const ClosedPartOptions& options, std::vector<SurfaceFit>& fits);
 

@@ -24,10 +24,11 @@ namespace {
 
 constexpr const char* too_large = "the next model would be too large";
 
-/// One solution, with the quantities that are compared between orders.
+/// One solution, with the quantities that are compared between orders. Where memory is short, the factor is given up
+/// while a larger model is solved.
 struct Solution {
   Model model;
-  Factored factored;
+  std::optional<Factored> factored;
   Modes modes;
   Responses responses;
 };
@@ -47,8 +48,8 @@ Solution prepared(const SolidPart& part, const mesh::TetMesh& mesh, int order, c
 /// The solution of the given order on a mesh, with its modes.
 Solution solve(const SolidPart& part, const mesh::TetMesh& mesh, int order, const ToleranceOptions& options) {
   Solution s = prepared(part, mesh, order, options);
-  s.modes = modes(s.model, s.factored, options.modes);
-  s.responses = responses_of(s.model, s.factored, s.modes, options.points);
+  s.modes = modes(s.model, *s.factored, options.modes);
+  s.responses = responses_of(s.model, *s.factored, s.modes, options.points);
   return s;
 }
 
@@ -59,9 +60,9 @@ Solution solve_below(const SolidPart& part, const Solution& above, const Toleran
   Solution s = prepared(part, above.model.mesh, above.model.nodes.order - 1, options);
   linalg::Eigenpairs start = above.modes.pairs;
   start.Phi = interpolated(above.model, start.Phi, s.model);
-  auto near = modes_near(s.model, s.factored, std::move(start), 0.1 * std::sqrt(options.tolerance));
-  s.modes = near ? std::move(*near) : modes(s.model, s.factored, options.modes);
-  s.responses = responses_of(s.model, s.factored, s.modes, options.points);
+  auto near = modes_near(s.model, *s.factored, std::move(start), 0.1 * std::sqrt(options.tolerance));
+  s.modes = near ? std::move(*near) : modes(s.model, *s.factored, options.modes);
+  s.responses = responses_of(s.model, *s.factored, s.modes, options.points);
   return s;
 }
 
@@ -132,12 +133,12 @@ double error_ratio(int order, double exponent) {
 
 /// The error of the last order over the last change: r / (1 − r) by the law of error_ratio(). Beside a re-entrant edge
 /// the last two changes on one mesh may have a ratio q below r. Then the change has a smooth share, too, which falls by
-/// ρ = 1/10 an order where the singular one falls by r (docs/theory/elements.md): of the last change the share s = r (q
-/// − ρ) / (q (r − ρ)) is singular, and the error is s r / (1 − r) + (1 − s) ρ / (1 − ρ), at least as the other edges
-/// have it.
+/// ρ = 1/30 an order, the most that was seen, where the singular one falls by r (docs/theory/elements.md): of the last
+/// change the share s = r (q − ρ) / (q (r − ρ)) is singular, and the error is s r / (1 − r) + (1 − s) ρ / (1 − ρ), at
+/// least as the other edges have it.
 double error_over_change(const std::vector<RefinementStep>& steps, std::optional<double> RefinementStep::*change,
                          const Exponent& exponent) {
-  constexpr double smooth = 0.1;
+  constexpr double smooth = 1.0 / 30.0;
   const RefinementStep& last = steps.back();
   const double r = error_ratio(last.order, exponent.least), others = error_ratio(last.order, exponent.otherwise);
   const double singular = r / (1.0 - r);
@@ -216,7 +217,8 @@ Refined finished(Refinement&& r) {
   estimate.met = best.errors.worst() <= estimate.tolerance;
   if (estimate.met) estimate.held_back_by.clear();
   Solution& s = best.solution;
-  return {std::move(s.model), std::move(s.factored), std::move(s.modes), std::move(estimate), best.level};
+  if (!s.factored) s.factored = factorise(s.model, r.options.memory_limit_bytes);
+  return {std::move(s.model), std::move(*s.factored), std::move(s.modes), std::move(estimate), best.level};
 }
 
 void add_step(Refinement& r, RefinementStep step) {
@@ -238,7 +240,7 @@ std::pair<Errors, Errors> compared(Refinement& r, int level, const Solution& bel
 void begin_level(Refinement& r, int level, mesh::TetMesh mesh) {
   const ToleranceOptions& options = r.options;
   Solution above = solve(r.part, mesh, options.first_order + 1, options);
-  if (level == 0 && options.points_hold && above.factored.sigma != 0.0)
+  if (level == 0 && options.points_hold && above.factored->sigma != 0.0)
     require_motions_determined(above.model, above.modes, above.responses.amplitudes);
   Solution below = solve_below(r.part, above, options);
   add_step(r, {level, options.first_order, below.model.K.rows(), {}, {}});
@@ -247,34 +249,39 @@ void begin_level(Refinement& r, int level, mesh::TetMesh mesh) {
   r.mesh = std::move(mesh);
   r.now = Found{std::move(above), of_above, level};
   if (of_below.worst() > options.tolerance) return;
-  below.modes = modes(below.model, below.factored, options.modes);
+  below.modes = modes(below.model, *below.factored, options.modes);
   r.now = Found{std::move(below), of_below, level};
 }
 
 /// The memory that a solution takes, by one that is known: that of K, M and K − σM grows as the entries of all
-/// elements' matrices, that of the factor as n^{4/3} (George 1973, for bodies; less for plates).
-double bytes_of(const mesh::TetMesh& mesh, int order, const Solution& known) {
+/// elements' matrices, that of the factor, of `factor_bytes`, as n^{4/3} (George 1973, for bodies; less for plates).
+double bytes_of(const mesh::TetMesh& mesh, int order, const Model& known, double factor_bytes) {
   const auto entries = [](const mesh::TetMesh& m, int p) {
     return static_cast<double>(m.tets.size()) * std::pow((p + 1) * (p + 2) * (p + 3) / 6.0, 2);
   };
-  const Model& model = known.model;
   const double rows =
-      static_cast<double>(mesh::lagrange_node_count(mesh, order)) / static_cast<double>(model.nodes.positions.rows());
-  const double matrices = 3.0 * 12.0 * static_cast<double>(model.K.nonZeros());
-  return matrices * entries(mesh, order) / entries(model.mesh, model.nodes.order) +
-         known.factored.factor.statistics().bytes * std::pow(rows, 4.0 / 3.0);
+      static_cast<double>(mesh::lagrange_node_count(mesh, order)) / static_cast<double>(known.nodes.positions.rows());
+  const double matrices = 3.0 * 12.0 * static_cast<double>(known.K.nonZeros());
+  return matrices * entries(mesh, order) / entries(known.mesh, known.nodes.order) +
+         factor_bytes * std::pow(rows, 4.0 / 3.0);
 }
 
-void require_memory(const Refinement& r, const mesh::TetMesh& mesh, int order) {
-  core::require_memory(bytes_of(mesh, order, r.now->solution),
-                       "a solution of " + std::to_string(3 * mesh::lagrange_node_count(mesh, order)) +
-                           " degrees of freedom at order " + std::to_string(order));
+/// Gives up the factor of the last solution if the next one does not fit beside it. Throws NumericalError if it does
+/// not fit without it.
+void make_room(Refinement& r, const mesh::TetMesh& mesh, int order) {
+  std::optional<Factored>& factored = r.now->solution.factored;
+  if (!factored) factored = factorise(r.now->solution.model, r.options.memory_limit_bytes);
+  const double held = factored->factor.statistics().bytes;
+  const double needed = bytes_of(mesh, order, r.now->solution.model, held), left = core::memory_left_bytes();
+  if (left > 0.0 && needed > left && needed <= left + held) factored.reset();
+  core::require_memory(needed, "a solution of " + std::to_string(3 * mesh::lagrange_node_count(mesh, order)) +
+                                   " degrees of freedom at order " + std::to_string(order));
 }
 
 /// Solves the next order on the mesh. The order before stays the result if it meets the tolerance.
 void raise_order(Refinement& r) {
   const int order = r.now->solution.model.nodes.order + 1;
-  require_memory(r, r.mesh, order);
+  make_room(r, r.mesh, order);
   Solution above = solve(r.part, r.mesh, order, r.options);
   const auto [of_below, of_above] = compared(r, r.now->level, r.now->solution, above);
   if (of_below.worst() <= r.options.tolerance) {
@@ -323,7 +330,7 @@ bool takes_finer_level(Refinement& r) {
     mesh::TetMesh finer = r.part.mesh(level);
     fitting = fits(finer, order, r.options);
     if (!fitting) return;
-    require_memory(r, finer, order);
+    make_room(r, finer, order);
     begin_level(r, level, std::move(finer));
   };
   if (!succeeds(r, step)) return false;

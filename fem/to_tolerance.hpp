@@ -58,8 +58,8 @@ struct ToleranceOptions {
 /// (p+½)^−4λ (Babuska & Suri 1994): r = ((p+½)/(p+3/2))^4λ. Frequencies take λ of the edges of clamps
 /// (clamped_edge_exponent()): 0.57 from order 4 to 5 and 0.62 from 5 to 6 for steel. Beside a re-entrant edge λ is
 /// 0.544 for receptances too: 0.65 and 0.70, or less where the last two changes on one mesh show a smooth share of the
-/// error, which falls by ten an order. Otherwise, and at least, r = 1/2, because the law does not hold at low orders;
-/// with elements graded to all edges r is smaller.
+/// error, which falls by thirty an order. Otherwise, and at least, r = 1/2, because the law does not hold at low
+/// orders; with elements graded to all edges r is smaller.
 struct Estimate {
   double frequency = 0.0;          ///< largest relative error
   double receptance = 0.0;         ///< largest error of a receptance by the largest magnitude; 0 without points

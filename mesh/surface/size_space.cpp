@@ -89,6 +89,7 @@ void check(std::string& wrong, const char* name, double value, double low, doubl
 void validate(const SurfaceSize& size) {
   std::string wrong;
   check(wrong, "size_m", size.size_m, 0.0, 1e6);
+  check(wrong, "least_plane_m", size.least_plane_m, 0.0, 1e6);
   check(wrong, "scale", size.scale, 0.05, 20.0);
   check(wrong, "layers", size.layers, 0, 4);
   check(wrong, "layer_width_m", size.layer_width_m, 0.0, 1e6);
@@ -132,8 +133,8 @@ SizeSpace::Patch SizeSpace::make_patch(int patch, const SurfaceFeatures& feature
     const auto& sides = features.lines[l].patches;
     if (sides[0] == patch || sides[1] == patch) result.lines.push_back(static_cast<int>(l));
   }
-  const double automatic =
-      std::min(thicknesses_per_size * result.thickness, diagonal(surface_) / smallest_sizes_per_diagonal);
+  const double wanted = std::max(thicknesses_per_size * result.thickness, result.planar ? size.least_plane_m : 0.0);
+  const double automatic = std::min(wanted, diagonal(surface_) / smallest_sizes_per_diagonal);
   result.size = size.scale * (size.size_m > 0.0 ? size.size_m : automatic);
   const double width = size.layer_width_m > 0.0 ? size.layer_width_m : result.thickness;
   // h₀ follows from ∫₀^w dd/(h₀ + g d) = layers.

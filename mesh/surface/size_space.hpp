@@ -17,6 +17,7 @@ namespace thinwall::mesh {
 /// stay long, because the error of a thin wall is concentrated in boundary layers as wide as the wall is thick.
 struct SurfaceSize {
   double size_m = 0.0;         ///< m, > 0; 0: 9 wall thicknesses of the patch, at most an eighth of the part's diagonal
+  double least_plane_m = 0.0;  ///< m; below which the automatic size of plane patches is not, up to the same eighth
   double scale = 1.0;          ///< factor on the wanted edge, 0.05 to 20
   int layers = 1;              ///< 0 to 4
   double layer_width_m = 0.0;  ///< m, > 0; 0: the wall thickness of the patch

@@ -10,6 +10,7 @@
 #include "core/interrupt.hpp"
 #include "core/units.hpp"
 #include "mesh/surface/closed_surface.hpp"
+#include "mesh/surface/matched_walls.hpp"
 #include "mesh/surface/remesh.hpp"
 #include "mesh/surface/surface_distance.hpp"
 #include "mesh/surface/wall_thickness.hpp"
@@ -24,6 +25,7 @@ constexpr double walls_per_isotropic_element = 1.5;
 constexpr double walls_off_the_surface = 0.02;  // of isotropic facets; finer ones make 50 times as many elements
 constexpr double smallest_turn_rad = 0.01;
 constexpr double samples_per_diagonal = 100.0;
+constexpr double share_of_tetgen = 0.25;  // of the time that a mesher has; it ends within seconds or not at all
 
 void validate(const SurfaceMeshOptions& options) {
   validate(options.size);
@@ -70,17 +72,30 @@ Remeshed remesh_to_volume(const TriangleSurface& surface, const Analysed& part, 
   }
 }
 
-/// The surface remeshed and filled by TetGen; throws NumericalError if the remeshed surface crosses itself.
-TetMesh fill_remeshed(const TriangleSurface& surface, const Analysed& part, const SurfaceSize& size,
-                      const SurfaceMeshOptions& options) {
-  const Remeshed remeshed = remesh_to_volume(surface, part, size, options.volume_tolerance);
-  const auto crossings = self_intersections(remeshed.surface);
+/// The remeshed surface filled by TetGen; throws NumericalError if it crosses itself.
+TetMesh filled(const TriangleSurface& remeshed, const ProcessLimits& limits) {
+  const auto crossings = self_intersections(remeshed);
   if (!crossings.empty()) {
-    const Eigen::Vector3d x = 1e3 * centroid(remeshed.surface, crossings[0][0]);
+    const Eigen::Vector3d x = 1e3 * centroid(remeshed, crossings[0][0]);
     throw core::NumericalError("the coarse surface crosses itself near (" + core::number_text(x(0), 3) + ", " +
                                core::number_text(x(1), 3) + ", " + core::number_text(x(2), 3) + ") mm");
   }
-  return tetrahedralise_as_given(faceted(remeshed.surface), options.limits);
+  return tetrahedralise_as_given(faceted(remeshed), limits);
+}
+
+/// The surface remeshed, with both sides of its walls alike, and filled by TetGen; with the sides as they are if that
+/// fails.
+TetMesh fill_remeshed(const TriangleSurface& surface, const Analysed& part, const SurfaceSize& size,
+                      const SurfaceMeshOptions& options) {
+  const Remeshed remeshed = remesh_to_volume(surface, part, size, options.volume_tolerance);
+  if (size.layers == 0) {
+    try {
+      return filled(matched_walls(remeshed).surface, options.limits);
+    } catch (const core::NumericalError&) {
+      core::check_interrupt();
+    }
+  }
+  return filled(remeshed.surface, options.limits);
 }
 
 /// The mesh with its measures; throws NumericalError if it does not keep the volume or has a degenerate tetrahedron.
@@ -146,12 +161,14 @@ std::vector<VolumeMesher> volume_meshers(const TriangleSurface& surface, const S
   std::vector<VolumeMesher> meshers;
   double shorter = 1.0;
   double straighter = 1.0;
+  SurfaceMeshOptions of_tetgen = options;
+  of_tetgen.limits.time_s *= share_of_tetgen;
   for (int attempt = 0; attempt < 3; ++attempt, shorter *= 0.8, straighter *= 0.7) {
     SurfaceSize size = options.size;
     size.scale *= shorter;
     size.turn_rad = std::max(smallest_turn_rad, size.turn_rad * straighter);
-    meshers.push_back({"TetGen", [part, size, options](const TriangleSurface& input) {
-                         return fill_remeshed(input, *part, size, options);
+    meshers.push_back({"TetGen", [part, size, of_tetgen](const TriangleSurface& input) {
+                         return fill_remeshed(input, *part, size, of_tetgen);
                        }});
   }
   DelaunayVolumeOptions delaunay;

@@ -41,7 +41,8 @@ struct VolumeMesher {
 };
 
 /// The methods that mesh_closed_surface() tries in turn: the surface remeshed (mesh::remesh(), with a smaller turn
-/// until the volume is kept) and filled by TetGen; then, if that fails, remeshed with edges 0.8 and 0.64 times as long
+/// until the volume is kept), without layers with equal triangles on both sides of plane walls (matched_walls()), and
+/// filled by TetGen in a quarter of limits.time_s; then, if that fails, remeshed with edges 0.8 and 0.64 times as long
 /// that turn 0.7 and 0.5 times as far; and at last isotropic elements of 1.5 wall thicknesses by CGAL Mesh_3.
 [[nodiscard]] std::vector<VolumeMesher> volume_meshers(const TriangleSurface& surface,
                                                        const SurfaceMeshOptions& options);

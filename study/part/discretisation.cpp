@@ -124,6 +124,9 @@ std::function<fem::Materials(const mesh::TetMesh&)> several_materials(const setu
 /// The share of part.mesh.time_budget in which meshes and solutions must be found; the rest is for checks and results.
 constexpr double share_of_solutions = 0.8;
 
+/// The share of the time of meshes and solutions in which one attempt of a mesher must end.
+constexpr double share_of_a_mesher = 0.5;
+
 double budget_of_solutions_s(const setup::Part& part) {
   return share_of_solutions * part.mesh.time_budget.value_or(0.0);
 }
@@ -144,6 +147,8 @@ fem::ClosedPartOptions closed_part_options(const PartInput& source) {
   options.time_budget_s = budget_of_solutions_s(*source.part);
   options.solved = log_step;
   options.limits = {wanted.time_limit, wanted.memory_limit};
+  if (options.time_budget_s > 0.0)
+    options.limits.time_s = std::min(wanted.time_limit, share_of_a_mesher * options.time_budget_s);
   if (wanted.order) {
     options.last_order = std::max(2, *wanted.order);
     options.first_order = options.last_order - 1;
