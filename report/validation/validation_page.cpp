@@ -110,6 +110,19 @@ std::string wrong_table(const ObservedSummary& observed) {
          rows + "\n";
 }
 
+/// A paragraph on marginal cuts and heard frequencies; "" if there are none.
+std::string remarks(const ObservedSummary& observed) {
+  std::string text;
+  if (observed.marginal == 1) text = "One cut was marginal.";
+  if (observed.marginal > 1) text = fmt::format("{} cuts were marginal.", observed.marginal);
+  if (const auto& difference = observed.median_frequency_difference_relative) {
+    text +=
+        fmt::format("{}{} chatter frequencies were heard; the median difference from the predicted one is {:.1f} %.",
+                    text.empty() ? "" : " ", observed.frequencies_heard, 100.0 * *difference);
+  }
+  return text.empty() ? "" : text + "\n\n";
+}
+
 std::string section_of(const ValidatedCase& one) {
   const ObservedSummary* observed = observed_of(one);
   if (observed == nullptr) return "";
@@ -120,13 +133,7 @@ std::string section_of(const ValidatedCase& one) {
       "| | predicted stable | predicted to chatter |\n|---|---|---|\n| was stable | {} | {} |\n| chattered | {} | {} "
       "|\n\n",
       observed->stable_right, observed->stable_wrong, observed->chatter_wrong, observed->chatter_right);
-  if (observed->marginal > 0) text += fmt::format("{} cuts were marginal. ", observed->marginal);
-  if (const auto& difference = observed->median_frequency_difference_relative) {
-    text += fmt::format("{} chatter frequencies were heard; the median difference from the predicted one is {:.1f} %.",
-                        observed->frequencies_heard, 100.0 * *difference);
-  }
-  if (text.back() != '\n') text += "\n\n";
-  return text + wrong_table(*observed);
+  return text + remarks(*observed) + wrong_table(*observed);
 }
 
 }  // namespace
