@@ -88,8 +88,10 @@ LearningCurves learning_curves(const std::vector<TappedPosture>& postures, Predi
                                const std::optional<TappedArm>& nominal, const std::optional<PostureCut>& cut) {
   LearningCurves curves;
   std::vector<TappedPosture> tested, others;
-  for (std::size_t i = 0; i < postures.size(); ++i)
-    (i % tested_in_turn == tested_in_turn - 1 ? tested : others).push_back(postures[i]);
+  // Every fourth of an order that spreads: in that of a list they may all lie in one layer of a grid.
+  const std::vector<std::size_t> all = spread_order(places_of(postures));
+  for (std::size_t i = 0; i < all.size(); ++i)
+    (i % tested_in_turn == tested_in_turn - 1 ? tested : others).push_back(postures[all[i]]);
   if (tested.empty() || others.size() < static_cast<std::size_t>(first_count)) return curves;
   curves.tested = static_cast<int>(tested.size());
   std::vector<TappedPosture> ordered;

@@ -20,7 +20,8 @@ struct FreedTable {
 ///     ẋ = Λx + B f + B_p u,    y = C x,    u = m ÿ_p
 ///
 /// takes the mass off, for H_free = (1 + ω² m H_pp)⁻¹ H at the point (Ewins 2000, chapter 3, mass cancellation): the
-/// receptance of the sum of all rows, exactly. Its poles are the eigenvalues of
+/// receptance of the sum of all rows, exactly where C B = 0, as of a table that leaves no mode out. Its poles are the
+/// eigenvalues of
 ///
 ///     s [ 1          0        ] z = [ Λ  B_p ] z,    z = (x, u)
 ///       [ m C_p Λ    m C_p B_p ]    [ 0  1   ]

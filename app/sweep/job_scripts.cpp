@@ -32,23 +32,38 @@ std::string merge_command(const SweepJobs& jobs) {
   return command(jobs, {"merge", jobs.folder.string(), "-o", (jobs.folder / "merged").string()});
 }
 
+/// The text as a value in a line of options for sbatch.
+std::string option_value(const std::string& text) {
+  std::string value = "\"";
+  for (const char c : text) value += c == '"' || c == '\\' ? std::string{'\\', c} : std::string(1, c);
+  return value + '"';
+}
+
+/// The path of a log with every % doubled, which would begin a replacement.
+std::string log_path(const fs::path& folder, const std::string& name) {
+  std::string path;
+  for (const char c : (folder / "").string()) path += c == '%' ? std::string("%%") : std::string(1, c);
+  return option_value(path + name);
+}
+
 std::string header(const SweepJobs& jobs, const std::string& of) {
-  std::string text = "#!/bin/bash\n#SBATCH --job-name=" + jobs.name + of + "\n#SBATCH --chdir=" + jobs.from.string() +
-                     "\n#SBATCH --open-mode=append\n";
+  std::string text = "#!/bin/bash\n#SBATCH --job-name=" + option_value(jobs.name + of) +
+                     "\n#SBATCH --chdir=" + option_value(jobs.from.string()) + "\n#SBATCH --open-mode=append\n";
   for (const std::string& option : jobs.options) text += "#SBATCH " + option + '\n';
   return text;
 }
 
-/// What a command of the shell prints, without the last line break; throws DataError with it where the command fails.
-std::string output_of(const std::string& line) {
-  std::FILE* pipe = ::popen((line + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) throw core::DataError("cannot start a shell for: " + line);
+/// The number of the job that sbatch makes of a script; sbatch itself says on standard error what is wrong. Throws
+/// DataError where it takes none, with `next`, what to do then.
+std::string submitted(const std::string& arguments, const std::string& next) {
+  std::FILE* pipe = ::popen(("sbatch --parsable " + arguments).c_str(), "r");
   std::string text;
-  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  if (::pclose(pipe) != 0)
-    throw core::DataError("sbatch did not take the sweep: " + text + "; submit it by hand, or use --parallel");
-  return text;
+  for (int c = pipe == nullptr ? EOF : std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
+  const bool ended = pipe != nullptr && ::pclose(pipe) == 0;
+  const std::string job = text.substr(0, text.find_first_of(";\n"));  // "12;cluster" where there are several
+  const bool is_number = !job.empty() && std::ranges::all_of(job, [](char c) { return c >= '0' && c <= '9'; });
+  if (!ended || !is_number) throw core::DataError("sbatch did not take the sweep; " + next);
+  return job;
 }
 
 }  // namespace
@@ -71,7 +86,7 @@ std::string slurm_array(const SweepJobs& jobs) {
                       jobs.threads, minutes);
   if (jobs.memory_bytes > 0.0) text += fmt::format("#SBATCH --mem={:.0f}M\n", std::ceil(jobs.memory_bytes / 1048576.0));
   const fs::path shards = jobs.folder / "shards";
-  text += "#SBATCH --requeue\n#SBATCH --output=" + (shards / "%a.log").string() + '\n';
+  text += "#SBATCH --requeue\n#SBATCH --output=" + log_path(shards, "%a.log") + '\n';
   return text + "\nshard=$SLURM_ARRAY_TASK_ID\nstarts=" + shell_word((shards / "").string()) + R"sh($shard.starts
 # A line is left behind by each start that was killed: with its node, for its memory, or by somebody.
 echo "$(date --iso-8601=seconds) $(hostname)" >> "$starts"
@@ -127,8 +142,9 @@ SlurmScripts write_slurm_scripts(const SweepJobs& jobs) {
 }
 
 std::string submit(const SlurmScripts& scripts) {
-  const std::string job = output_of("sbatch --parsable " + shell_word(scripts.array.string()));
-  (void)output_of("sbatch --parsable --dependency=afterany:" + job + ' ' + shell_word(scripts.merge.string()));
+  std::string job = submitted(shell_word(scripts.array.string()), "submit its script by hand, or use --parallel");
+  const std::string merge = "--dependency=afterany:" + job + ' ' + shell_word(scripts.merge.string());
+  (void)submitted(merge, "the array is queued as job " + job + ", the table is not: sbatch " + merge);
   return job;
 }
 

@@ -238,6 +238,8 @@ ExitCode run_sweep(const SweepRequest& request, const RunCase& run_case, std::os
   make_sweep_folder(folder);
   if (std::error_code ignored; request.fresh) fs::remove_all(shared_parts(folder), ignored);
   write_plan(folder, plan);
+  if (request.shards > 0 && !request.slurm && !request.parallel)
+    throw core::UsageError("--shards is for --slurm and --parallel; one shard is computed by --shard I/N");
   if (request.slurm || request.parallel) {
     write_jobs(request, sweep_jobs(request, table, folder, name), out);
     return ExitCode::done;

@@ -66,12 +66,14 @@ SweepJobs sweep_jobs(const SweepRequest& sweep, const SweepTable& table, const f
 }
 
 void write_jobs(const SweepRequest& sweep, const SweepJobs& jobs, std::ostream& out) {
+  // What an earlier sweep left there is not that of this one.
+  fs::remove_all(jobs.folder / "shards");
   fs::create_directories(jobs.folder / "shards");
   out << jobs.shards << " shards, each " << about(jobs.seconds) << '\n';
   if (sweep.parallel) {
     const fs::path script = jobs.folder / "parallel.sh";
     core::write_file_atomically(script, parallel_script(jobs));
-    out << "wrote " << script.string() << "; run it with: bash " << script.string() << '\n';
+    out << "wrote " << script.string() << "; run it with: bash " << shell_word(script.string()) << '\n';
   }
   if (!sweep.slurm) return;
   const SlurmScripts scripts = write_slurm_scripts(jobs);

@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "core/interrupt.hpp"
 #include "mesh/surface/plane_overlay.hpp"
 
 namespace thinwall::mesh {
@@ -99,7 +100,10 @@ std::vector<std::array<int, 2>> border(const Remeshed& r, const PlaneFace& face)
 /// too far from each other for the first one's triangles, and a triangle of the first has its centroid before the
 /// second.
 std::optional<double> wall_between(const Remeshed& r, const PlaneFace& one, const PlaneFace& other) {
-  const double thickness = one.offset + other.offset;
+  // From a vertex of the other side and not from its offset, which two planes that are not quite parallel have at the
+  // origin, however far away that is.
+  const int there = r.surface.triangles[at(other.triangles.front())][0];
+  const double thickness = one.offset - one.normal.dot(r.surface.vertices[at(there)]);
   if (one.normal.dot(other.normal) > opposite || !(thickness > 0.0) || thickness > thickest * one.edge)
     return std::nullopt;
   Eigen::Matrix<double, 2, 3> axes;
@@ -182,6 +186,7 @@ Border border_of(const Remeshed& r, const PlaneFace& face, const std::vector<std
 
 /// True if the triangles around v keep their sense and a tenth of their area with v at x.
 bool may_move(const Remeshed& r, int v, const Vector3d& x) {
+  core::check_interrupt();
   for (const auto& t : r.surface.triangles) {
     const auto corner = std::find(t.begin(), t.end(), v);
     if (corner == t.end()) continue;
@@ -306,7 +311,9 @@ std::map<int, int> vertices_on(Remeshed& r, const PlaneFace& face, const Vector3
   for (const auto& triangle : overlaid.triangles) {
     for (const int point : triangle) {
       if (vertex.contains(point)) continue;
-      add(point, points[at(point)](0) * u + points[at(point)](1) * v + face.offset * face.normal);
+      // Along n onto the face's own plane, which may lean a little.
+      const Vector3d p = points[at(point)](0) * u + points[at(point)](1) * v;
+      add(point, p + (face.offset - face.normal.dot(p)) / face.normal.dot(n) * n);
     }
   }
   return vertex;
@@ -362,12 +369,15 @@ Remeshed matched_walls(Remeshed remeshed) {
     const auto walls = walls_of(remeshed, faces_of(remeshed));
     bool added = false;
     for (const Walls& wall : walls) {
-      slide_vertices(remeshed, faces_of(remeshed), wall);
-      const auto faces = faces_of(remeshed);
-      const auto overlay = plane_overlay(sides_of(remeshed, faces, wall));
+      core::check_interrupt();
+      Remeshed slid = remeshed;
+      slide_vertices(slid, faces_of(slid), wall);
+      const auto faces = faces_of(slid);
+      const auto overlay = plane_overlay(sides_of(slid, faces, wall));
       if (!overlay) continue;
       for (const OverlaidFace& face : overlay->faces) added = added || !face.divided.empty();
-      replace_triangles(remeshed, faces, wall, *overlay);
+      replace_triangles(slid, faces, wall, *overlay);
+      remeshed = std::move(slid);
     }
     drop_unused(remeshed.surface);
     if (!added) break;

@@ -12,11 +12,12 @@ namespace thinwall::mesh {
 /// the thinner it is.
 ///
 /// Two plane faces are the sides of a wall if they are parallel with material between them and their distance is at
-/// most a third of their triangles' edges. Vertices on straight edges slide to the nearby vertices of the other side;
-/// then the borders of both sides are drawn on each other and their common region is triangulated once (constrained
-/// Delaunay, CGAL), with the interior vertices of one side. Edges that gain vertices are divided on all faces. A wall
-/// whose borders would come closer to each other than a fifth of its thickness without touching keeps its triangles.
-/// `remeshed`: isotropic away from borders (without layers). Cost O(n²) for n vertices on the borders of a wall.
+/// most a third of their triangles' edges. Vertices on edges, straight or round, slide along them to the nearby
+/// vertices of the other side; then the borders of both sides are drawn on each other and their common region is
+/// triangulated once (constrained Delaunay, CGAL), with the interior vertices of one side. Edges that gain vertices are
+/// divided on all faces. A wall whose borders would come closer to each other than a fifth of its thickness without
+/// touching keeps its triangles. `remeshed`: isotropic away from borders (without layers). Cost O(n²) for n vertices on
+/// the borders of a wall.
 [[nodiscard]] Remeshed matched_walls(Remeshed remeshed);
 
 }  // namespace thinwall::mesh

@@ -10,6 +10,8 @@
 #include <set>
 #include <utility>
 
+#include "core/interrupt.hpp"
+
 namespace thinwall::mesh {
 
 using Eigen::Vector2d;
@@ -95,10 +97,13 @@ void cross_segments(Drawing& s, Segment& one, Segment& two) {
 
 /// Cuts the segments at each other and at points that lie on them.
 void cut_segments(Drawing& s) {
-  for (std::size_t i = 0; i < s.segments.size(); ++i)
+  for (std::size_t i = 0; i < s.segments.size(); ++i) {
+    core::check_interrupt();
     for (std::size_t j = 0; j < i; ++j)
       if (s.segments[i].face != s.segments[j].face) cross_segments(s, s.segments[i], s.segments[j]);
+  }
   for (Segment& segment : s.segments) {
+    core::check_interrupt();
     for (int p = 0; p < static_cast<int>(s.overlay.points.size()); ++p) {
       if (p == segment.from || p == segment.to) continue;
       const auto [at, distance] = foot(s.point(segment.from), s.point(segment.to), s.point(p));
@@ -113,10 +118,13 @@ void cut_segments(Drawing& s) {
 /// True if points and segments touch or keep the least gap.
 bool keeps_gap(const Drawing& s) {
   const auto& points = s.overlay.points;
-  for (std::size_t i = 0; i < points.size(); ++i)
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    core::check_interrupt();
     for (std::size_t j = 0; j < i; ++j)
       if ((points[i] - points[j]).norm() < s.sides.least_gap) return false;
+  }
   return std::all_of(s.segments.begin(), s.segments.end(), [&](const Segment& segment) {
+    core::check_interrupt();
     return std::all_of(points.begin(), points.end(), [&](const Vector2d& p) {
       const double distance = foot(s.point(segment.from), s.point(segment.to), p).second;
       return distance <= s.sides.tolerance || distance >= s.sides.least_gap;
@@ -124,17 +132,14 @@ bool keeps_gap(const Drawing& s) {
   });
 }
 
-/// True if p lies within a face.
-bool covers(const PlaneSide& face, const Vector2d& p) {
-  std::vector<std::array<Vector2d, 2>> edges;
-  for (const auto& [a, b] : face.border) edges.push_back({face.place.at(a), face.place.at(b)});
-  return is_within(edges, p);
-}
+using Edges = std::vector<std::array<Vector2d, 2>>;
 
-/// True if p lies within an upper face.
-bool is_covered(const PlaneSides& sides, const Vector2d& p) {
-  return std::any_of(sides.faces.begin(), sides.faces.end(),
-                     [&](const PlaneSide& face) { return face.upper && covers(face, p); });
+/// The border of a face as edges in the plane.
+Edges edges_of(const PlaneSide& face) {
+  Edges edges;
+  edges.reserve(face.border.size());
+  for (const auto& [a, b] : face.border) edges.push_back({face.place.at(a), face.place.at(b)});
+  return edges;
 }
 
 /// True if p is at least this far from all borders.
@@ -147,12 +152,19 @@ bool is_clear(const Drawing& s, const Vector2d& p, double distance) {
 /// Adds the interior vertices of the upper faces, and of the lower ones where no upper face is, that are clear of all
 /// borders.
 void add_interior(Drawing& s) {
+  std::vector<Edges> upper;
+  for (const PlaneSide& face : s.sides.faces)
+    if (face.upper) upper.push_back(edges_of(face));
+  const auto is_covered = [&](const Vector2d& p) {
+    return std::any_of(upper.begin(), upper.end(), [&](const Edges& edges) { return is_within(edges, p); });
+  };
   for (const PlaneSide& face : s.sides.faces) {
     std::set<int> on_border;
     for (const auto& edge : face.border) on_border.insert(edge[0]);
     const double clear = std::max(s.sides.least_gap, clear_of_borders * face.edge);
     for (const auto& entry : face.place) {
-      if (on_border.contains(entry.first) || (!face.upper && is_covered(s.sides, entry.second))) continue;
+      core::check_interrupt();
+      if (on_border.contains(entry.first) || (!face.upper && is_covered(entry.second))) continue;
       if (is_clear(s, entry.second, clear)) s.overlay.points.push_back(entry.second);
     }
   }

@@ -83,21 +83,6 @@ TetMesh filled(const TriangleSurface& remeshed, const ProcessLimits& limits) {
   return tetrahedralise_as_given(faceted(remeshed), limits);
 }
 
-/// The surface remeshed, with both sides of its walls alike, and filled by TetGen; with the sides as they are if that
-/// fails.
-TetMesh fill_remeshed(const TriangleSurface& surface, const Analysed& part, const SurfaceSize& size,
-                      const SurfaceMeshOptions& options) {
-  const Remeshed remeshed = remesh_to_volume(surface, part, size, options.volume_tolerance);
-  if (size.layers == 0) {
-    try {
-      return filled(matched_walls(remeshed).surface, options.limits);
-    } catch (const core::NumericalError&) {
-      core::check_interrupt();
-    }
-  }
-  return filled(remeshed.surface, options.limits);
-}
-
 /// The mesh with its measures; throws NumericalError if it does not keep the volume or has a degenerate tetrahedron.
 SurfaceMeshed judged(TetMesh mesh, const TriangleSurface& surface, const SurfaceMeshOptions& options) {
   SurfaceMeshed result;
@@ -113,6 +98,21 @@ SurfaceMeshed judged(TetMesh mesh, const TriangleSurface& surface, const Surface
                                ", below " + core::number_text(options.smallest_shape, 3));
   }
   return result;
+}
+
+/// The surface remeshed, with both sides of its walls alike, and filled by TetGen; with the sides as they are if that
+/// fails or does not keep the volume.
+TetMesh fill_remeshed(const TriangleSurface& surface, const Analysed& part, const SurfaceSize& size,
+                      const SurfaceMeshOptions& options) {
+  const Remeshed remeshed = remesh_to_volume(surface, part, size, options.volume_tolerance);
+  if (size.layers == 0) {
+    try {
+      return judged(filled(matched_walls(remeshed).surface, options.limits), surface, options).mesh;
+    } catch (const core::NumericalError&) {
+      core::check_interrupt();
+    }
+  }
+  return filled(remeshed.surface, options.limits);
 }
 
 /// The mesh by the first mesher that succeeds, with the messages of those before it.

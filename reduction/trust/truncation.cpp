@@ -90,12 +90,13 @@ dynamics::SpatialModel with_left_out(const dynamics::SpatialModel& reduced, cons
   // In a direction in which hardly anything was left out B is round-off: its frequency could come out infinite, or take
   // more mass than the interface has. A lower bound of the eigenvalues prevents both, no higher than is needed.
   dynamics::SpatialModel model;
-  for (double least = 1e-8; least <= 1.0; least *= 10.0) {
+  for (double least = 1e-8; least < 2.0; least *= 10.0) {
     const VectorXd bounded = eigen.eigenvalues().cwiseMax(least * eigen.eigenvalues().maxCoeff());
     model = with_coordinates(reduced, directions, bounded.cwiseSqrt().cwiseInverse());
-    if (Eigen::LLT<MatrixXd>(model.M).info() == Eigen::Success) break;
+    if (Eigen::LLT<MatrixXd>(model.M).info() == Eigen::Success) return model;
   }
-  return model;
+  throw core::NumericalError("truncation: the reduced model's mass matrix of " + std::to_string(n) +
+                             " degrees of freedom is not positive definite; check its interface");
 }
 
 }  // namespace thinwall::reduction

@@ -126,12 +126,15 @@ void write_depths(const std::filesystem::path& file, const study::PostureStudy& 
 void write_curve(const std::filesystem::path& file, const study::PostureStudy& study) {
   if (!study.curves) return;
   Rows rows;
+  const auto has_depth = [](const posture::LearningPoint& at) { return at.depth_error.has_value(); };
+  const bool depths =
+      std::ranges::any_of(study.curves->plain, has_depth) || std::ranges::any_of(study.curves->with_arm, has_depth);
   const auto add = [&](const char* mean, const std::vector<posture::LearningPoint>& curve) {
     for (const posture::LearningPoint& at : curve) {
       rows.word("mean", mean);
       rows.number("postures", at.postures);
       rows.number("frequency_error", at.frequency_error);
-      if (at.depth_error) rows.number("depth_error", *at.depth_error);
+      if (depths) rows.number("depth_error", at.depth_error.value_or(unknown));
     }
   };
   add("none", study.curves->plain);

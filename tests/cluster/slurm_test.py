@@ -98,7 +98,7 @@ SlurmctldLogFile={folder}/slurmctld.log
 SlurmdLogFile={folder}/slurmd.log
 SlurmctldPort={free_port()}
 SlurmdPort={free_port()}
-NodeName={host} NodeAddr=127.0.0.1 CPUs=4 State=UNKNOWN
+NodeName={host} NodeAddr=127.0.0.1 CPUs=2 State=UNKNOWN
 PartitionName=main Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 """)
         self.environment = dict(os.environ, SLURM_CONF=str(self.conf))
@@ -126,15 +126,17 @@ PartitionName=main Nodes=ALL Default=YES MaxTime=INFINITE State=UP
         wait_for("the node", lambda: "idle" in self.run("sinfo", "-h", "-o", "%t").stdout)
 
     def restart_node(self):
-        """The node with all that runs on it is lost, and begins anew."""
+        """The node with all that runs on it is lost, and begins anew; returns how many shards ran."""
         self.node.kill()
         self.node.wait()
         kill(processes("slurmstepd", of=self.folder))  # first, so that nobody reports how the jobs have ended
-        kill(processes("slurm_script", "--shard", of=self.folder))
+        shards = processes(" --shard ", of=self.folder)
+        kill(processes("slurm_script", of=self.folder) + shards)
         time.sleep(2.0)  # the controller compares whole seconds: the node must begin after it answered last
         self.start_node("-b")
         wait_for("the loss of the node", lambda: "down" in self.run("sinfo", "-h", "-o", "%t").stdout)
         self.run("scontrol", "update", f"nodename={self.host}", "state=resume")
+        return len(shards)
 
     def jobs(self):
         """The jobs that are not over; those that wait after a restart are told not to."""
@@ -154,7 +156,7 @@ PartitionName=main Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 
 
 def sweep(thinwall, case, out, *more):
-    return [thinwall, "sweep", str(case), KEY, "--set", "lobes.count=12", "--out", str(out), "--threads", "1", *more]
+    return [thinwall, "sweep", str(case), KEY, "--set", "lobes.count=150", "--out", str(out), "--threads", "1", *more]
 
 
 def rows(path):
@@ -173,11 +175,14 @@ def test_forty_points(slurm, thinwall, case, folder):
     subprocess.run(sweep(thinwall, case, serial, "-q"), check=True, stdout=subprocess.DEVNULL)
     told = slurm.run(*sweep(thinwall, case, cluster, "--slurm", "--submit", "--shards", str(SHARDS)))
     assert told.returncode == 0, told.stderr
+    # Two shards at a time: the first two are killed, and wait until nobody would be killed twice; then the node is lost.
     for shard in (1, 2):
-        wait_for(f"a point of shard {shard}", lambda s=shard: slurm.jobs() and computed(cluster, s))
-        kill(processes(f"--shard {shard}/{SHARDS}", of=folder))
-    wait_for("a point of shard 3", lambda: slurm.jobs() and computed(cluster, 3))
-    slurm.restart_node()
+        wait_for(f"a point of shard {shard}", lambda s=shard: computed(cluster, s))
+        running = processes(f"--shard {shard}/{SHARDS}", of=folder)
+        assert running, f"shard {shard} has ended before it could be killed"
+        kill(running)
+    wait_for("shard 3 or 4", lambda: processes(f"--shard 3/{SHARDS}", f"--shard 4/{SHARDS}", of=folder))
+    assert slurm.restart_node() > 0, "nothing ran on the node that was restarted"
     wait_for("the end of all jobs", lambda: not slurm.jobs())
     merged = rows(cluster / "merged" / "sweep.csv")
     assert len(merged) == POINTS + 1, len(merged)

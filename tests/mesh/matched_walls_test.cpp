@@ -103,5 +103,28 @@ TEST(MatchedWalls, ElementsOfTheWallMeetInFacesAcrossIt) {
   EXPECT_GE(prisms, 15);
 }
 
+/// A plate of 300 × 200 mm that is 2.985 mm thick at one end and 3.015 mm at the other, a metre from the origin.
+TEST(MatchedWalls, OfSidesThatLeanALittleKeepTheirPlanesFarFromTheOrigin) {
+  const Eigen::Vector3d far(1.0, -2.0, 5.0);
+  FacetedSurface plate;
+  for (const double z : {0.0, 1.0})
+    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {0.3, 0.0}, {0.3, 0.2}, {0.0, 0.2}})
+      plate.vertices.push_back(far + Eigen::Vector3d(x, y, z * (2.985e-3 + 1e-4 * x)));
+  plate.facets = {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  const TriangleSurface surface = triangulated(plate);
+  const Remeshed matched = matched_walls(remeshed(surface));
+  double off = 0.0;
+  int inside = 0;
+  for (const Eigen::Vector3d& vertex : matched.surface.vertices) {
+    const Eigen::Vector3d v = vertex - far;
+    if (v.x() < 1e-6 || v.x() > 0.3 - 1e-6 || v.y() < 1e-6 || v.y() > 0.2 - 1e-6) continue;
+    off = std::max(off, std::min(std::abs(v.z()), std::abs(v.z() - 2.985e-3 - 1e-4 * v.x())));
+    ++inside;
+  }
+  EXPECT_GT(inside, 10);
+  EXPECT_LT(off, 1e-9);
+  EXPECT_NEAR(volume(matched.surface) / volume(surface), 1.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace thinwall::mesh::matched_walls_test

@@ -15,7 +15,7 @@ export function learningCurve({ plain, with_arm: withArm = [] }) {
 }
 
 function build(plain, withArm, key, colours, narrow) {
-  const curve = (name, meta, points, color, symbol) => ({ name, meta, x: points.map((p) => p.postures), y: points.map((p) => 100 * p[key]), mode: 'lines+markers', line: { color, width: 2 }, marker: { size: 8, symbol }, hovertemplate: '%{x} postures: %{y:.3~g} %' });
+  const curve = (name, meta, points, color, symbol) => ({ name, meta, x: points.map((p) => p.postures), y: points.map((p) => (isNumber(p[key]) ? 100 * p[key] : null)), mode: 'lines+markers', line: { color, width: 2 }, marker: { size: 8, symbol }, hovertemplate: '%{x} postures: %{y:.3~g} %' });
   const data = [curve('from taps alone', 'plain', plain, colours.part, 'circle'), ...(withArm.length ? [curve('with the arm’s model as the mean', 'arm', withArm, colours.supported, 'diamond')] : [])];
   return { data, layout: { height: narrow ? 320 : 380, hovermode: 'closest', showlegend: true, uirevision: key, xaxis: { title: 'Tapped postures', type: 'log', tickvals: plain.map((p) => p.postures), showspikes: false }, yaxis: { title: `Median error of ${narrow ? '' : 'the '}${key === 'depth_error' ? 'depth' : 'frequencies'} (%)`, rangemode: 'tozero' } } };
 }

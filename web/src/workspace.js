@@ -15,7 +15,7 @@ function quantities({ map, next, figures }, places) {
   const width = (rows) => rows.map(([value, low, high]) => [(100 * (high - low)) / value]);
   const list = depth ? [
     ['depth', { title: 'Stable depth', unit: 'mm', of: depth.map((row) => row.map((v) => v * 1e3)) }],
-    ['cautious', { title: 'Depth that is stable with 97.5 % confidence', unit: 'mm', of: depth.map(([, low]) => [low * 1e3]) }],
+    ['cautious', { title: 'Lower end of the interval of the depth', unit: 'mm', of: depth.map(([, low]) => [low * 1e3]) }],
     ['depth_width', { title: 'Width of the interval of the depth', unit: '% of the depth', of: width(depth) }],
     ...(new Set(numbers(map.rpm)).size > 1 ? [['rpm', { title: 'Best spindle speed', unit: 'rpm', of: Array.from(numbers(map.rpm), (v) => [v]) }]] : [])] : [];
   list.push(['first', { title: 'First frequency', unit: 'Hz', of: hz }], ['first_width', { title: 'Width of the interval of the first frequency', unit: '% of the frequency', of: width(hz) }]);
