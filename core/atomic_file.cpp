@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <fstream>
 #include <mutex>
+#include <random>
 #include <set>
 #include <sstream>
 #include <system_error>
@@ -73,8 +74,10 @@ GivenNames& given_names() {
 
 std::filesystem::path partial_path(const std::filesystem::path& target) {
   static std::atomic<int> counter{0};
+  // Processes of several machines that share a folder may have the same number.
+  static const unsigned machine = std::random_device{}();
   std::ostringstream name;
-  name << '.' << target.stem().string() << partial_mark << ::getpid() << '-' << counter++
+  name << '.' << target.stem().string() << partial_mark << ::getpid() << '-' << machine << '-' << counter++
        << target.extension().string();
   std::filesystem::path path = target.parent_path() / name.str();
   const std::scoped_lock lock(given_names().mutex);

@@ -217,7 +217,11 @@ Refined finished(Refinement&& r) {
   estimate.met = best.errors.worst() <= estimate.tolerance;
   if (estimate.met) estimate.held_back_by.clear();
   Solution& s = best.solution;
-  if (!s.factored) s.factored = factorise(s.model, r.options.memory_limit_bytes);
+  if (!s.factored) {
+    // The factor was given up for a solution that failed. It fits as it did before once the other one has none.
+    if (r.better) (&best == &*r.better ? *r.now : *r.better).solution.factored.reset();
+    s.factored = factorise(s.model, r.options.memory_limit_bytes);
+  }
   return {std::move(s.model), std::move(*s.factored), std::move(s.modes), std::move(estimate), best.level};
 }
 
