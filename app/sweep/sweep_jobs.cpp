@@ -60,7 +60,7 @@ SweepJobs sweep_jobs(const SweepRequest& sweep, const SweepTable& table, const f
   jobs.sweep = arguments_of(sweep, jobs.folder, jobs.threads);
   const double points_of_shard = std::ceil(static_cast<double>(points) / static_cast<double>(jobs.shards));
   jobs.seconds = points_of_shard * seconds_of_first_point(sweep, table);
-  jobs.memory_bytes = core::memory_limit_bytes();
+  jobs.memory_bytes = 1.1 * core::memory_limit_bytes();  // the program ends itself before the cluster does
   jobs.options = sweep.sbatch;
   return jobs;
 }
