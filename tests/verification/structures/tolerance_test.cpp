@@ -126,9 +126,9 @@ TEST(RefineToTolerance, SaysSoWhereTheLawOfTheEdgeLeavesTooMuch) {
   EXPECT_LT(change, options.tolerance);
   EXPECT_FALSE(refined.estimate.met);
   // docs/theory/elements.md: r of the edge's law from order 5 to 6, of the share that is singular by the last two
-  // changes; the rest falls tenfold an order.
+  // changes; the rest falls thirtyfold an order.
   const double q = change / steps[steps.size() - 2].frequency_change.value();
-  const double r = std::pow(5.5 / 6.5, 2.176), rho = 0.1;
+  const double r = std::pow(5.5 / 6.5, 2.176), rho = 1.0 / 30.0;
   const double singular = std::min(1.0, r * (q - rho) / (q * (r - rho)));
   EXPECT_NEAR(refined.estimate.frequency / change, singular * r / (1.0 - r) + (1.0 - singular) * rho / (1.0 - rho),
               0.01);
