@@ -115,6 +115,15 @@ double spread_of_residues(const Eigen::MatrixXd& values) {
   return (residues.rowwise() - residues.colwise().mean()).squaredNorm();
 }
 
+/// The residuals with a root mean square of 1 at least. Hyper-parameters have seen every posture, so that each is
+/// predicted too well by the others, the more so the fewer there are: of 14 postures the root mean squares were 0.6 to
+/// 0.9 where the deviations themselves held 94 % of the truth. More than 1 tells of deviations that are too small.
+Eigen::VectorXd at_least_one(Eigen::VectorXd residuals) {
+  const double rms = std::sqrt(residuals.squaredNorm() / static_cast<double>(residuals.size()));
+  if (rms > 0.0 && rms < 1.0) residuals /= rms;
+  return residuals;
+}
+
 PredictedMode unseen(const FittedMode& mode, const PredictorOptions& options) {
   PredictedMode result{-1, targets_of(mode), {}};
   const double largest = result.mean.tail(result.mean.size() - 2).cwiseAbs().maxCoeff();
@@ -173,7 +182,7 @@ void Predictor::learn(int label, const std::vector<std::vector<FittedMode>>& of_
   learned.residuals = Eigen::MatrixXd::Zero(numbers.values.cols(), places_.rows());
   for (std::size_t t = 0; t < learned.processes.size(); ++t)
     learned.residuals(static_cast<Eigen::Index>(t), numbers.rows) =
-        learned.processes[t].standardised_residuals().transpose();
+        at_least_one(learned.processes[t].standardised_residuals()).transpose();
   learned_.push_back(std::move(learned));
 }
 

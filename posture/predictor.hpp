@@ -17,8 +17,9 @@ struct PredictedMode {
   Eigen::VectorXd mean;
   Eigen::VectorXd deviation;    ///< of the function, without the noise of a test
   Turn turn{};                  ///< into the frame of the residue's numbers; empty: the world's
-  Eigen::MatrixXd residuals{};  ///< numbers × postures: errors over their deviations where a posture is left out, 0
-                                ///< where the mode was not seen; empty: not known
+  Eigen::MatrixXd residuals{};  ///< numbers × postures: errors over their deviations where a posture is left out,
+                                ///< scaled to a root mean square of 1 if it is less; 0 where the mode was not seen;
+                                ///< empty: not known
 };
 
 /// The modes to be expected at a posture.
