@@ -41,11 +41,12 @@ double weighted_scatter(const Eigen::VectorXd& y, const Eigen::VectorXd& weight)
 
 /// The probability that each draw gives to chatter at a point.
 Eigen::VectorXd chatter_of(const CutModel& model, const std::vector<Draw>& draws, const milling::OperatingPoint& at) {
-  const double decay = (-model.nominal.structure.poles.real()).minCoeff();
+  const Eigen::VectorXcd& poles = model.nominal.structure.poles;
   Eigen::VectorXd p(std::ssize(draws));
   for (std::size_t i = 0; i < draws.size(); ++i) {
-    const milling::MultiplierSlope mu = milling::multiplier_slope(draws[i].cut, {}, Eigen::VectorXd(), at, false);
-    p(static_cast<Index>(i)) = chatter_probability(mu.log_modulus / (mu.period_s * decay), draws[i].noise);
+    const milling::MultiplierSlope mu =
+        milling::multiplier_slope(draws[i].cut, {}, Eigen::VectorXd(), at, poles, false);
+    p(static_cast<Index>(i)) = chatter_probability(mu.margin, draws[i].noise);
   }
   return p;
 }
