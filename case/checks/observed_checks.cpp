@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -16,6 +17,8 @@ namespace {
 
 /// The keys of a cut that is given by itself.
 constexpr const char* needed_keys[] = {"spindle_speed", "depth", "observed"};
+/// Those by which such a cut is judged.
+constexpr const char* judged_keys[] = {"spindle_speed", "depth", "observed", "chatter_frequency"};
 
 /// A key below an entry, and what is wrong there; an empty text: nothing.
 struct CutFault {
@@ -68,10 +71,16 @@ CutFault fault_of(const setup::LobesOptions& lobes, const std::string& entry, co
   return fault_of_contradiction(entry, cut, seen);
 }
 
+/// True if one of the values of an entry could not be read, which is said elsewhere: the cut cannot be judged.
+bool has_unreadable(const std::string& entry, const setup::ObservedCuts& cuts, const Findings& findings) {
+  return cuts.file.empty() &&
+         std::ranges::any_of(judged_keys, [&](const char* key) { return findings.unreadable(entry + "." + key); });
+}
+
 bool check_entry(const std::string& entry, const setup::ObservedCuts& cuts, Findings& findings) {
   std::error_code ignored;
   if (!cuts.file.empty()) {
-    for (const char* key : {"spindle_speed", "depth", "observed", "chatter_frequency"})
+    for (const char* key : judged_keys)
       if (findings.given(entry + "." + key))
         findings.report(entry + "." + key, "is in the file already; remove it, or `file`");
     if (!std::filesystem::exists(cuts.file, ignored))
@@ -87,8 +96,21 @@ bool check_entry(const std::string& entry, const setup::ObservedCuts& cuts, Find
   return complete;
 }
 
+/// The next cut is for a speed of the chart.
+void check_wanted_speed(const Case& source, Findings& findings) {
+  const auto rpm = source.calibration->spindle_speed_rpm;
+  if (!rpm || !source.lobes || findings.unreadable("calibration.spindle_speed")) return;
+  if (*rpm >= source.lobes->from_rpm && *rpm <= source.lobes->to_rpm) return;
+  findings.report(
+      "calibration.spindle_speed",
+      fmt::format("{:g} rpm lies outside the chart, {:g} to {:g} rpm; give a speed there (--speed), or widen "
+                  "lobes.from and lobes.to",
+                  *rpm, source.lobes->from_rpm, source.lobes->to_rpm));
+}
+
 /// The calibration needs cuts to learn from, something to learn, and poles.
 void check_calibration(const Case& source, Findings& findings) {
+  check_wanted_speed(source, findings);
   if (source.observed.empty()) findings.report("calibration", "there are no cuts to learn from; add [[observed]]");
   const milling::Uncertainty known =
       source.lobes && source.lobes->robust ? source.lobes->robust->uncertainty : milling::Uncertainty{};
@@ -115,7 +137,7 @@ void check_observed(const Case& source, Findings& findings) {
   for (std::size_t i = 0; i < source.observed.size(); ++i) {
     const std::string entry = indexed("observed", i);
     const setup::ObservedCuts& cuts = source.observed[i];
-    if (!check_entry(entry, cuts, findings)) continue;
+    if (!check_entry(entry, cuts, findings) || has_unreadable(entry, cuts, findings)) continue;
     for (std::size_t c = 0; c < cuts.cuts.size(); ++c) {
       const CutFault fault = fault_of(*source.lobes, entry, cuts.cuts[c], seen);
       if (fault.text.empty()) continue;

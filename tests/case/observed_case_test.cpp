@@ -120,11 +120,23 @@ TEST(ObservedCase, NamesTheCutOfAFileThatIsWrong) {
   EXPECT_THROW((void)parse_case(tool_case(from_file), negative.folder), core::DataError);
 }
 
+TEST(ObservedCase, SaysOnceWhatItCannotRead) {
+  const std::string unreadable = "[[observed]]\nspindle_speed = \"fast\"\ndepth = \"1 mm\"\nobserved = \"stable\"\n";
+  try {
+    (void)parse_case(tool_case(one_cut + unreadable + unreadable), ".");
+    ADD_FAILURE();
+  } catch (const CaseError& error) {
+    EXPECT_EQ(error.problems.size(), 2u);
+  }
+}
+
 TEST(ObservedCase, LearnsOnlyWithCutsAndUncertainty) {
   const std::string uncertain = "[lobes.uncertainty]\nfrequency = 0.01\n";
   EXPECT_TRUE(parse_case(tool_case(uncertain + one_cut + "[calibration]\nseed = 2\n"), ".").calibration);
   expect_problem(uncertain + "[calibration]\nseed = 2\n", "no cuts to learn from");
   expect_problem(one_cut + "[calibration]\nseed = 2\n", "nothing is uncertain beforehand");
+  expect_problem(uncertain + one_cut + "[calibration]\nspindle_speed = \"100 rpm\"\n",
+                 "100 rpm lies outside the chart, 2000 to 8000 rpm");
 }
 
 }  // namespace
