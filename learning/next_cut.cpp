@@ -64,8 +64,8 @@ Eigen::VectorXd log_limits(const std::vector<Draw>& draws, double rpm, const mil
 
 }  // namespace
 
-NextCut next_cut(const Calibration& calibration, std::size_t draws, double spindle_speed_rpm,
-                 const std::vector<milling::OperatingPoint>& candidates) {
+std::optional<NextCut> next_cut(const Calibration& calibration, std::size_t draws, double spindle_speed_rpm,
+                                const std::vector<milling::OperatingPoint>& candidates) {
   if (draws == 0 || candidates.empty())
     throw core::InputError("next cut: it needs draws and candidates; give at least one of each");
   const std::vector<Draw> taken = some_draws(calibration, draws);
@@ -80,6 +80,8 @@ NextCut next_cut(const Calibration& calibration, std::size_t draws, double spind
                  std::sqrt((weighted_scatter(y, p) + weighted_scatter(y, q)) / n)};
     progress.step();
   });
+  std::erase_if(judged, [](const NextCut& cut) { return cut.chatter_probability > riskiest_next_cut; });
+  if (judged.empty()) return std::nullopt;
   return *std::ranges::min_element(judged, {}, &NextCut::deviation_after);
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/units.hpp"
+#include "learning/parameter_limit.hpp"
 
 namespace thinwall::cases {
 
@@ -108,6 +109,19 @@ void check_wanted_speed(const Case& source, Findings& findings) {
                   *rpm, source.lobes->from_rpm, source.lobes->to_rpm));
 }
 
+/// Of a tool alone the parameters are known before the chart; others are counted with it.
+void check_parameters(const Case& source, const milling::Uncertainty& known, Findings& findings) {
+  if (!source.tool || source.part || source.robot || !source.measured_part.empty()) return;
+  const int of_a_mode =
+      (known.frequency > 0.0 ? 1 : 0) + (known.damping_ratio > 0.0 ? 1 : 0) + (known.mass > 0.0 ? 1 : 0);
+  const int parameters = static_cast<int>(source.tool->modes.size()) * of_a_mode;
+  if (parameters <= learning::most_parameters) return;
+  findings.report("calibration",
+                  fmt::format("{} parameters of {} modes are uncertain, must be at most {}; set what is known in "
+                              "[lobes.uncertainty] to 0, or give fewer modes",
+                              parameters, source.tool->modes.size(), learning::most_parameters));
+}
+
 /// The calibration needs cuts to learn from, something to learn, and poles.
 void check_calibration(const Case& source, Findings& findings) {
   check_wanted_speed(source, findings);
@@ -120,6 +134,7 @@ void check_calibration(const Case& source, Findings& findings) {
     findings.report("calibration",
                     "nothing is uncertain beforehand; give [lobes.uncertainty], at least one of them above 0");
   }
+  check_parameters(source, known, findings);
   if (source.tool && setup::known_by_lines(*source.tool))
     findings.report("calibration", "needs poles, tool.measured has none; give tool.fit = true or tool.modes");
 }
