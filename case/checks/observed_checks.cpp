@@ -74,8 +74,12 @@ CutFault fault_of(const setup::LobesOptions& lobes, const std::string& entry, co
 
 /// True if one of the values of an entry could not be read, which is said elsewhere: the cut cannot be judged.
 bool has_unreadable(const std::string& entry, const setup::ObservedCuts& cuts, const Findings& findings) {
-  return cuts.file.empty() &&
-         std::ranges::any_of(judged_keys, [&](const char* key) { return findings.unreadable(entry + "." + key); });
+  if (!cuts.file.empty()) return false;
+  const milling::ObservedCut& cut = cuts.cuts.front();
+  if (std::isnan(cut.spindle_speed_rpm) || std::isnan(cut.depth_m) ||
+      std::isnan(cut.chatter_frequency_hz.value_or(0.0)))
+    return true;
+  return std::ranges::any_of(judged_keys, [&](const char* key) { return findings.unreadable(entry + "." + key); });
 }
 
 bool check_entry(const std::string& entry, const setup::ObservedCuts& cuts, Findings& findings) {
@@ -100,7 +104,7 @@ bool check_entry(const std::string& entry, const setup::ObservedCuts& cuts, Find
 /// The next cut is for a speed of the chart.
 void check_wanted_speed(const Case& source, Findings& findings) {
   const auto rpm = source.calibration->spindle_speed_rpm;
-  if (!rpm || !source.lobes || findings.unreadable("calibration.spindle_speed")) return;
+  if (!rpm || !source.lobes || std::isnan(*rpm)) return;
   if (*rpm >= source.lobes->from_rpm && *rpm <= source.lobes->to_rpm) return;
   findings.report(
       "calibration.spindle_speed",

@@ -126,7 +126,7 @@ TEST(ObservedCase, SaysOnceWhatItCannotRead) {
     (void)parse_case(tool_case(one_cut + unreadable + unreadable), ".");
     ADD_FAILURE();
   } catch (const CaseError& error) {
-    EXPECT_EQ(error.problems.size(), 2u);
+    EXPECT_EQ(error.problems.size(), 2u) << error.what();
   }
 }
 
