@@ -110,7 +110,7 @@ TEST_F(ObservedCommand, LearnsFromCuts) {
 
 TEST_F(ObservedCommand, ProposesNoCutBeyondTheMachine) {
   write("case.toml", tool_case + cut("12000", "0.3", "chatter") + "[machine]\nmax_spindle_speed = \"9500 rpm\"\n");
-  const Outcome done = command({"calibrate", path("case.toml"), "--draws", "20", "--out", path("results"), "-q"});
+  const Outcome done = command({"calibrate", path("case.toml"), "--draws", "40", "--out", path("results"), "-q"});
   ASSERT_EQ(done.code, 0) << done.err;
   ASSERT_TRUE(chart()["learned"].contains("next_cut"));
   EXPECT_LE(chart()["learned"]["next_cut"]["spindle_speed_rpm"].get<double>(), 9500.0);
