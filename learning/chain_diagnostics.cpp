@@ -45,14 +45,17 @@ OneUnknown diagnose_one(const Eigen::MatrixXd& sequences) {
   const double between = (means.array() - means.mean()).square().sum() / (m - 1.0);  // B/n
   if (!(within > 0.0)) return {};
   const double variance = (n - 1.0) / n * within + between;
-  double sum = 0.0;
+  double pairs = 0.0;
   const auto correlation = [&](Index t) { return 1.0 - variogram(sequences, t) / (2.0 * variance); };
-  for (Index t = 1; t + 1 < rows; t += 2) {
-    const double pair = correlation(t) + correlation(t + 1);
+  // Sums of two neighbours, the first of them at 0, are positive and fall for every reversible chain (Geyer 1992).
+  for (Index t = 0; t + 1 < rows; t += 2) {
+    const double pair = (t == 0 ? 1.0 : correlation(t)) + correlation(t + 1);
     if (pair < 0.0) break;
-    sum += pair;
+    pairs += pair;
   }
-  return {std::sqrt(variance / within), std::min(m * n, m * n / (1.0 + 2.0 * sum))};
+  // A single negative pair at once would be a size above that of independent draws, which is the most here.
+  const double time = std::max(1.0, 2.0 * pairs - 1.0);
+  return {std::sqrt(variance / within), m * n / time};
 }
 
 }  // namespace

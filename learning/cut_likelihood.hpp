@@ -26,9 +26,8 @@ struct CutModel {
 /// The prediction of a structure and process for the cuts: an entry a cut, and its derivative by each z, where that was
 /// asked for.
 struct PredictedCuts {
-  Eigen::VectorXd margin;  ///< ln|μ| / (T d): −1 of a tool that does not cut, 0 on the boundary; d is the decay
-                           ///< rate of the nominal structure's slowest pole, T the tooth period
-  Eigen::VectorXd frequency_hz;     ///< of the dominant multiplier
+  Eigen::VectorXd margin;           ///< milling::MultiplierSlope, scaled by the poles of the nominal structure
+  Eigen::VectorXd frequency_hz;     ///< of the multiplier that decides
   Eigen::MatrixXd margin_slope;     ///< cuts × parameters
   Eigen::MatrixXd frequency_slope;  ///< cuts × parameters, Hz
 };
@@ -51,8 +50,9 @@ struct PredictedCuts {
 ///
 ///     −|x|²/2 + Σ ln P(outcome | m, κ) + Σ ln((1 − ε) e^{−r²/2} + ε √(2π) s/2),     r = (f − heard)/(s heard)
 ///
-/// with P = p of a cut that chattered, 1 − p of a stable one, 4 p (1 − p) of a marginal one, p = chatter_probability():
-/// a marginal cut tells that the boundary is near. A frequency that does not belong to the chatter lies anywhere up to
+/// with P = p of a cut that chattered, 1 − p of a stable one, p = chatter_probability(). Where one of the cuts is
+/// called marginal that is a third answer, 4 p (1 − p), and all three are divided by their sum 1 + 4 p (1 − p): a
+/// marginal cut tells that the boundary is near. A frequency that does not belong to the chatter lies anywhere up to
 /// twice what was heard. Cost O(cuts).
 [[nodiscard]] double log_posterior(const CutModel& model, const PredictedCuts& predicted, const Eigen::VectorXd& x);
 

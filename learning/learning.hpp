@@ -7,5 +7,6 @@
 #include "learning/cut_likelihood.hpp"
 #include "learning/mean_force_fit.hpp"
 #include "learning/next_cut.hpp"
+#include "learning/parameter_limit.hpp"
 #include "learning/quadratic_cuts.hpp"
 #include "learning/surrogate_chains.hpp"

@@ -41,11 +41,12 @@ double weighted_scatter(const Eigen::VectorXd& y, const Eigen::VectorXd& weight)
 
 /// The probability that each draw gives to chatter at a point.
 Eigen::VectorXd chatter_of(const CutModel& model, const std::vector<Draw>& draws, const milling::OperatingPoint& at) {
-  const double decay = (-model.nominal.structure.poles.real()).minCoeff();
+  const Eigen::VectorXcd& poles = model.nominal.structure.poles;
   Eigen::VectorXd p(std::ssize(draws));
   for (std::size_t i = 0; i < draws.size(); ++i) {
-    const milling::MultiplierSlope mu = milling::multiplier_slope(draws[i].cut, {}, Eigen::VectorXd(), at, false);
-    p(static_cast<Index>(i)) = chatter_probability(mu.log_modulus / (mu.period_s * decay), draws[i].noise);
+    const milling::MultiplierSlope mu =
+        milling::multiplier_slope(draws[i].cut, {}, Eigen::VectorXd(), at, poles, false);
+    p(static_cast<Index>(i)) = chatter_probability(mu.margin, draws[i].noise);
   }
   return p;
 }
@@ -63,8 +64,8 @@ Eigen::VectorXd log_limits(const std::vector<Draw>& draws, double rpm, const mil
 
 }  // namespace
 
-NextCut next_cut(const Calibration& calibration, std::size_t draws, double spindle_speed_rpm,
-                 const std::vector<milling::OperatingPoint>& candidates) {
+std::optional<NextCut> next_cut(const Calibration& calibration, std::size_t draws, double spindle_speed_rpm,
+                                const std::vector<milling::OperatingPoint>& candidates) {
   if (draws == 0 || candidates.empty())
     throw core::InputError("next cut: it needs draws and candidates; give at least one of each");
   const std::vector<Draw> taken = some_draws(calibration, draws);
@@ -79,6 +80,8 @@ NextCut next_cut(const Calibration& calibration, std::size_t draws, double spind
                  std::sqrt((weighted_scatter(y, p) + weighted_scatter(y, q)) / n)};
     progress.step();
   });
+  std::erase_if(judged, [](const NextCut& cut) { return cut.chatter_probability > riskiest_next_cut; });
+  if (judged.empty()) return std::nullopt;
   return *std::ranges::min_element(judged, {}, &NextCut::deviation_after);
 }
 

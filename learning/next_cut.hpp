@@ -9,6 +9,9 @@
 
 namespace thinwall::learning {
 
+/// The highest probability of chatter of a cut that is proposed: a cut that chatters costs a part or a tool.
+constexpr double riskiest_next_cut = 0.6;
+
 /// A cut to make, and what it is expected to bring.
 struct NextCut {
   milling::OperatingPoint point;
@@ -22,9 +25,11 @@ struct NextCut {
 ///     E Var = P Var(ln w | chatter) + (1 − P) Var(ln w | stable)
 ///
 /// over `draws` of the posterior, which an outcome weighs by its probability at each of them; a draw that is stable up
-/// to the depth limit has its limit there. Throws InputError without draws or candidates. Cost: draws times a row and
+/// to the depth limit has its limit there. Candidates of a probability of chatter above riskiest_next_cut are left out;
+/// none if no other is left. Throws InputError without draws or candidates. Cost: draws times a row and
 /// a multiplier for each candidate.
-[[nodiscard]] NextCut next_cut(const Calibration& calibration, std::size_t draws, double spindle_speed_rpm,
-                               const std::vector<milling::OperatingPoint>& candidates);
+[[nodiscard]] std::optional<NextCut> next_cut(const Calibration& calibration, std::size_t draws,
+                                              double spindle_speed_rpm,
+                                              const std::vector<milling::OperatingPoint>& candidates);
 
 }  // namespace thinwall::learning

@@ -309,17 +309,21 @@ void run_lobes(const setup::Setup& work, const std::vector<milling::OperatingPoi
   if (!work.lobes || !work.cutting || !work.tool) return;
   const milling::ToolFrame frame = setup::milling_process(work).frame;
   const bool carried = setup::carries_tool(work.robot);
-  const auto chart_of = [&](ChartOf of, const dynamics::ModalModel* part, const dynamics::ModalModel* richer) {
+  // The cuts were made on the last of the charts: only that one learns from them.
+  const auto chart_of = [&](ChartOf of, const dynamics::ModalModel* part, const dynamics::ModalModel* richer,
+                            bool is_last) {
     const dynamics::ModalModel* carrier = of == ChartOf::carried ? &carrier_modes(*results.robot) : nullptr;
     const CutStructure structure = cut_structure(work, frame, part, carrier);
     if (!results.synthesised_tip) results.synthesised_tip = synthesised_tip(work, structure);
     StructureErrors errors = structure_errors(work, frame, structure, richer, carrier);
     errors.draws = drawn_poles(work, of, part, results);
-    results.lobes.push_back(compute_lobes(work, of, structure, errors, points, kept));
+    setup::CutSetup cut = work;
+    if (!is_last) cut.calibration.reset();
+    results.lobes.push_back(compute_lobes(cut, of, structure, errors, points, kept));
   };
   stages.begin("lobes");
   if (!work.part && work.measured_part.empty()) {
-    chart_of(carried ? ChartOf::carried : ChartOf::tool, nullptr, nullptr);
+    chart_of(carried ? ChartOf::carried : ChartOf::tool, nullptr, nullptr, true);
     return add_forced_over_speed(work, {}, results, stages);
   }
   if (!results.part || !results.part->modal) {
@@ -327,11 +331,13 @@ void run_lobes(const setup::Setup& work, const std::vector<milling::OperatingPoi
         "lobes need a part that is held and known as a model (part.shape with part.supports), not by measured "
         "receptances alone");
   }
-  chart_of(ChartOf::part, &*results.part->modal, modes_or_null(results.errors.richer_part));
-  if (carried) chart_of(ChartOf::carried, &*results.part->modal, modes_or_null(results.errors.richer_part));
+  chart_of(ChartOf::part, &*results.part->modal, modes_or_null(results.errors.richer_part),
+           !carried && !results.coupled);
+  if (carried)
+    chart_of(ChartOf::carried, &*results.part->modal, modes_or_null(results.errors.richer_part), !results.coupled);
   if (results.coupled && results.coupled->modal) {
     const auto& richer = results.errors.richer_coupled;
-    chart_of(ChartOf::supported, &*results.coupled->modal, richer ? &*richer : nullptr);
+    chart_of(ChartOf::supported, &*results.coupled->modal, richer ? &*richer : nullptr, true);
   } else if (results.coupled) {
     add_sampled_chart(work, frame, points, kept, results);
   }

@@ -18,6 +18,7 @@
 #include "study/lobes/lobes_forecast.hpp"
 #include "study/lobes/lobes_stage.hpp"
 #include "study/lobes/low_limit.hpp"
+#include "study/lobes/machine_load.hpp"
 #include "study/lobes/main_modes.hpp"
 #include "study/lobes/observed_cuts.hpp"
 #include "study/lobes/path_stage.hpp"

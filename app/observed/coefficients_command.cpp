@@ -111,6 +111,23 @@ std::string line_of(const char* name, const learning::FittedCoefficient& c, doub
                      c.half_interval * factor);
 }
 
+/// A case takes no edge coefficient below 0, which friction on the edge cannot give.
+std::string edge_line_of(const char* name, const learning::FittedCoefficient& c) {
+  const std::string line = line_of(name, c, 1e-3, "N/mm");
+  if (c.value >= 0.0) return line;
+  return fmt::format("# {}   # a case takes none below 0, {}; left out it is 0\n", line.substr(0, line.size() - 1),
+                     -c.value <= c.half_interval ? "and 0 lies within the interval"
+                                                 : "though 0 lies outside the interval: check the forces' zero");
+}
+
+void require_cutting(const learning::FittedCoefficient& K_t) {
+  if (K_t.value > 0.0) return;
+  throw core::InputError(
+      fmt::format("K_t is {:.6g} N/mm^2, must be above 0; the forces seem to act on the part (--on "
+                  "part), or an axis is reversed",
+                  K_t.value * 1e-6));
+}
+
 }  // namespace
 
 std::string coefficients_of(const CoefficientsRequest& request) {
@@ -118,11 +135,12 @@ std::string coefficients_of(const CoefficientsRequest& request) {
     throw core::UsageError("--on \"" + request.on + "\": write tool or part");
   const std::vector<learning::MeanForceTest> tests = tests_of(request);
   const learning::CoefficientFit fit = learning::fit_mean_forces(request.teeth, tests);
+  require_cutting(fit.K_t);
   return fmt::format("# {} cuts; R2 {:.5f}, residual {:.3g} N, condition {:.3g}\n[cutting]\n", tests.size(),
                      fit.r_squared, fit.residual_n, fit.condition) +
          line_of("Kt", fit.K_t, 1e-6, "N/mm^2") + line_of("Kr", fit.K_r, 1e-6, "N/mm^2") +
-         line_of("Ka", fit.K_a, 1e-6, "N/mm^2") + line_of("Kte", fit.K_te, 1e-3, "N/mm") +
-         line_of("Kre", fit.K_re, 1e-3, "N/mm") + line_of("Kae", fit.K_ae, 1e-3, "N/mm");
+         line_of("Ka", fit.K_a, 1e-6, "N/mm^2") + edge_line_of("Kte", fit.K_te) + edge_line_of("Kre", fit.K_re) +
+         edge_line_of("Kae", fit.K_ae);
 }
 
 }  // namespace thinwall::app

@@ -3,6 +3,8 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <regex>
+#include <utility>
 #include <vector>
 
 #include "app/log.hpp"
@@ -20,6 +22,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// False of the text of a case that has neither [[observed]] nor `observed =`, however they are spaced.
+bool may_have_cuts(const std::string& text) {
+  static const std::regex written(R"(\[\[\s*"?observed"?\s*\]\]|(^|\n)\s*"?observed"?\s*=)");
+  return std::regex_search(text, written);
+}
+
 /// The cases of a folder that have cuts, in the order of their names.
 std::vector<cases::Case> cases_with_cuts(const fs::path& folder) {
   if (!fs::is_directory(folder))
@@ -32,8 +40,9 @@ std::vector<cases::Case> cases_with_cuts(const fs::path& folder) {
   std::vector<cases::Case> list;
   for (const fs::path& path : paths) {
     // Most cases have none, and reading one may mean reading a mesh.
-    if (core::read_file(path / "case.toml").find("[[observed]]") == std::string::npos) continue;
-    list.push_back(cases::read_case(path));
+    if (!may_have_cuts(core::read_file(path / "case.toml"))) continue;
+    cases::Case source = cases::read_case(path);
+    if (!source.observed.empty()) list.push_back(std::move(source));
   }
   if (list.empty())
     throw core::InputError("no case in \"" + folder.string() + "\" has [[observed]]; add the cuts that were made");
@@ -61,6 +70,21 @@ bool holds(const fs::path& file, const std::string& text) {
   return fs::exists(file) && core::read_file(file) == text;
 }
 
+fs::path pictures_of(const fs::path& page) {
+  return page.parent_path() / "pictures";
+}
+
+/// Paths and texts of the drawings and, last, of the page.
+using Files = std::vector<std::pair<fs::path, std::string>>;
+
+Files files_of(const fs::path& page, const std::vector<report::ValidatedCase>& all) {
+  Files files;
+  for (const report::ValidatedCase& one : all)
+    files.emplace_back(pictures_of(page) / report::chart_name(one), report::validation_chart(one));
+  files.emplace_back(page, report::validation_page(all));
+  return files;
+}
+
 }  // namespace
 
 Validation validate_cases(const ValidateRequest& request, const RunCase& run_case) {
@@ -72,20 +96,18 @@ Validation validate_cases(const ValidateRequest& request, const RunCase& run_cas
     if (observed != nullptr)
       result.text += fmt::format("  {:<26} {}\n", source.name, report::share_text(observed->prediction));
   }
-  const std::string page = report::validation_page(all);
+  const Files files = files_of(request.page, all);
   if (request.check) {
-    result.page_is_true = holds(request.page, page);
-    result.text += result.page_is_true ? request.page + " is what the cases give\n"
-                                       : request.page +
-                                             " differs from what the cases give now; write it anew without "
-                                             "--check\n";
+    for (const auto& [file, text] : files) {
+      if (holds(file, text)) continue;
+      result.page_is_true = false;
+      result.text += file.string() + " differs from what the cases give now; write it anew without --check\n";
+    }
+    if (result.page_is_true) result.text += request.page + " is what the cases give\n";
     return result;
   }
-  const fs::path pictures = fs::path(request.page).parent_path() / "pictures";
-  fs::create_directories(pictures);
-  for (const report::ValidatedCase& one : all)
-    core::write_file_atomically(pictures / report::chart_name(one), report::validation_chart(one));
-  core::write_file_atomically(request.page, page);
+  fs::create_directories(pictures_of(request.page));
+  for (const auto& [file, text] : files) core::write_file_atomically(file, text);
   result.text += "wrote " + request.page + "\n";
   return result;
 }

@@ -18,7 +18,7 @@ struct ValidateRequest {
 /// The findings of the command.
 struct Validation {
   std::string text;          ///< for the terminal
-  bool page_is_true = true;  ///< false: with `check`, the page differs from what the cases give now
+  bool page_is_true = true;  ///< false: with `check`, the page or a drawing differs from what the cases give now
 };
 
 /// Runs the cases of the folder that have [[observed]], in the order of their names, each into results/<case>, and

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "core/units.hpp"
+#include "learning/parameter_limit.hpp"
 
 namespace thinwall::cases {
 
@@ -16,6 +18,8 @@ namespace {
 
 /// The keys of a cut that is given by itself.
 constexpr const char* needed_keys[] = {"spindle_speed", "depth", "observed"};
+/// Those by which such a cut is judged.
+constexpr const char* judged_keys[] = {"spindle_speed", "depth", "observed", "chatter_frequency"};
 
 /// A key below an entry, and what is wrong there; an empty text: nothing.
 struct CutFault {
@@ -68,10 +72,20 @@ CutFault fault_of(const setup::LobesOptions& lobes, const std::string& entry, co
   return fault_of_contradiction(entry, cut, seen);
 }
 
+/// True if one of the values of an entry could not be read, which is said elsewhere: the cut cannot be judged.
+bool has_unreadable(const std::string& entry, const setup::ObservedCuts& cuts, const Findings& findings) {
+  if (!cuts.file.empty()) return false;
+  const milling::ObservedCut& cut = cuts.cuts.front();
+  if (std::isnan(cut.spindle_speed_rpm) || std::isnan(cut.depth_m) ||
+      std::isnan(cut.chatter_frequency_hz.value_or(0.0)))
+    return true;
+  return std::ranges::any_of(judged_keys, [&](const char* key) { return findings.unreadable(entry + "." + key); });
+}
+
 bool check_entry(const std::string& entry, const setup::ObservedCuts& cuts, Findings& findings) {
   std::error_code ignored;
   if (!cuts.file.empty()) {
-    for (const char* key : {"spindle_speed", "depth", "observed", "chatter_frequency"})
+    for (const char* key : judged_keys)
       if (findings.given(entry + "." + key))
         findings.report(entry + "." + key, "is in the file already; remove it, or `file`");
     if (!std::filesystem::exists(cuts.file, ignored))
@@ -87,8 +101,34 @@ bool check_entry(const std::string& entry, const setup::ObservedCuts& cuts, Find
   return complete;
 }
 
+/// The next cut is for a speed of the chart.
+void check_wanted_speed(const Case& source, Findings& findings) {
+  const auto rpm = source.calibration->spindle_speed_rpm;
+  if (!rpm || !source.lobes || std::isnan(*rpm)) return;
+  if (*rpm >= source.lobes->from_rpm && *rpm <= source.lobes->to_rpm) return;
+  findings.report(
+      "calibration.spindle_speed",
+      fmt::format("{:g} rpm lies outside the chart, {:g} to {:g} rpm; give a speed there (--speed), or widen "
+                  "lobes.from and lobes.to",
+                  *rpm, source.lobes->from_rpm, source.lobes->to_rpm));
+}
+
+/// Of a tool alone the parameters are known before the chart; others are counted with it.
+void check_parameters(const Case& source, const milling::Uncertainty& known, Findings& findings) {
+  if (!source.tool || source.part || source.robot || !source.measured_part.empty()) return;
+  const int of_a_mode =
+      (known.frequency > 0.0 ? 1 : 0) + (known.damping_ratio > 0.0 ? 1 : 0) + (known.mass > 0.0 ? 1 : 0);
+  const int parameters = static_cast<int>(source.tool->modes.size()) * of_a_mode;
+  if (parameters <= learning::most_parameters) return;
+  findings.report("calibration",
+                  fmt::format("{} parameters of {} modes are uncertain, must be at most {}; set what is known in "
+                              "[lobes.uncertainty] to 0, or give fewer modes",
+                              parameters, source.tool->modes.size(), learning::most_parameters));
+}
+
 /// The calibration needs cuts to learn from, something to learn, and poles.
 void check_calibration(const Case& source, Findings& findings) {
+  check_wanted_speed(source, findings);
   if (source.observed.empty()) findings.report("calibration", "there are no cuts to learn from; add [[observed]]");
   const milling::Uncertainty known =
       source.lobes && source.lobes->robust ? source.lobes->robust->uncertainty : milling::Uncertainty{};
@@ -98,6 +138,7 @@ void check_calibration(const Case& source, Findings& findings) {
     findings.report("calibration",
                     "nothing is uncertain beforehand; give [lobes.uncertainty], at least one of them above 0");
   }
+  check_parameters(source, known, findings);
   if (source.tool && setup::known_by_lines(*source.tool))
     findings.report("calibration", "needs poles, tool.measured has none; give tool.fit = true or tool.modes");
 }
@@ -115,7 +156,7 @@ void check_observed(const Case& source, Findings& findings) {
   for (std::size_t i = 0; i < source.observed.size(); ++i) {
     const std::string entry = indexed("observed", i);
     const setup::ObservedCuts& cuts = source.observed[i];
-    if (!check_entry(entry, cuts, findings)) continue;
+    if (!check_entry(entry, cuts, findings) || has_unreadable(entry, cuts, findings)) continue;
     for (std::size_t c = 0; c < cuts.cuts.size(); ++c) {
       const CutFault fault = fault_of(*source.lobes, entry, cuts.cuts[c], seen);
       if (fault.text.empty()) continue;

@@ -51,7 +51,8 @@ ObservedCutSummary cut_summary(const study::JudgedCut& cut) {
 }
 
 void count(const ObservedCutSummary& cut, ObservedSummary& summary) {
-  if (!cut.right) ++summary.marginal;
+  if (cut.observed == CutOutcome::marginal) ++summary.marginal;
+  else if (!cut.right) summary.doubtful = summary.doubtful.value_or(0) + 1;
   else if (cut.observed == CutOutcome::stable) ++(*cut.right ? summary.stable_right : summary.stable_wrong);
   else ++(*cut.right ? summary.chatter_right : summary.chatter_wrong);
 }
@@ -172,6 +173,7 @@ std::string share_text(const ShareSummary& share) {
 std::string observed_text(const ObservedSummary& observed) {
   std::string text = fmt::format("    cuts made     {}", share_text(observed.prediction));
   if (observed.marginal > 0) text += fmt::format("; {} marginal", observed.marginal);
+  if (observed.doubtful) text += fmt::format("; {} doubtful: the prediction did not converge", *observed.doubtful);
   text += "\n";
   if (observed.textbook) text += fmt::format("    zeroth order  {}\n", share_text(*observed.textbook));
   if (const auto& c = observed.certainty) {

@@ -32,7 +32,10 @@ void fields(Visitor& visit, Section& cut) {
   visit(Field{"depth_m", Kind::length, "axial depth of cut"}, cut.depth_m);
   visit(Field{"observed", Kind::text, "\"stable\", \"chatter\" or \"marginal\", as it was seen"}, cut.observed);
   visit(Field{"predicted_stable", Kind::truth, "true if the chart predicts a stable cut"}, cut.predicted_stable);
-  visit(Field{"right", Kind::truth, "true if that was seen; null of a marginal cut", Presence::or_null}, cut.right);
+  visit(Field{"right", Kind::truth,
+              "true if that was seen; null of a marginal cut, and where the prediction did not converge",
+              Presence::or_null},
+        cut.right);
   visit(Field{"depth_margin_m", Kind::length, "depth that may be added; negative: how much is too deep"},
         cut.depth_margin_m);
   visit(Field{"depth_margin_relative", Kind::ratio, "depth_margin_m over depth_m"}, cut.depth_margin_relative);
@@ -99,6 +102,7 @@ void fields(Visitor& visit, Section& certainty) {
 struct ObservedSummary {
   ShareSummary prediction;
   int stable_right = 0, stable_wrong = 0, chatter_right = 0, chatter_wrong = 0, marginal = 0;
+  std::optional<int> doubtful;
   std::optional<ShareSummary> textbook;
   std::optional<CertaintySummary> certainty;
   int frequencies_heard = 0;
@@ -114,6 +118,9 @@ void fields(Visitor& visit, Section& observed) {
   visit(Field{"chatter_right", Kind::count, "cuts that chattered, predicted to chatter"}, observed.chatter_right);
   visit(Field{"chatter_wrong", Kind::count, "cuts that chattered, predicted stable"}, observed.chatter_wrong);
   visit(Field{"marginal", Kind::count, "cuts that were neither, and are not counted"}, observed.marginal);
+  visit(Field{"doubtful", Kind::count,
+              "other cuts whose prediction did not converge, and that are not counted; absent: none"},
+        observed.doubtful);
   visit(Field{"textbook", Kind::section, "the same share of the zeroth-order method; absent: it cannot take the cut"},
         observed.textbook);
   visit(Field{"certainty", Kind::section, "what lobes.uncertainty leaves certain; absent: nothing is uncertain"},

@@ -19,12 +19,16 @@ constexpr auto opening =
     "written by `thinwall validate`; each cut is in `lobes/*_observed.csv` of its case's results and on the chart of "
     "its\n"
     "report.\n\n"
-    "Right means that a cut which was stable was predicted stable, or one that chattered to chatter; marginal cuts do "
-    "not\n"
-    "count. Intervals are those of Wilson (1927) with 95 %. *Zeroth order* is the textbook's method (Altintas & Budak\n"
-    "1995). *Certain* are cuts of which at most 2.3 % of 200 draws of the parameters, within their uncertainty, say "
-    "the\n"
-    "opposite.\n\n";
+    "Right means that a cut which was stable was predicted stable, or one that chattered to chatter; marginal cuts, "
+    "and "
+    "those\n"
+    "whose prediction did not converge, do not count. Intervals are those of Wilson (1927) with 95 %. *Zeroth order* "
+    "is the "
+    "textbook's method (Altintas & Budak\n"
+    "1995). *Certain* are cuts of which hardly any of 200 draws of the parameters, within their uncertainty, say the "
+    "opposite:\n"
+    "at most the share that the case's `lobes.uncertainty.confidence` leaves, 2.3 % at its usual two standard "
+    "deviations.\n\n";
 
 std::string percent_text(const ShareSummary& share) {
   return fmt::format("{} of {}, {:.0f} % ({:.0f} to {:.0f} %)", share.right, share.of, 100.0 * share.share,

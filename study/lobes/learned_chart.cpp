@@ -5,35 +5,46 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "core/messages.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
+#include "learning/parameter_limit.hpp"
 #include "milling/direct/stability.hpp"
 #include "setup/observed.hpp"
+#include "study/lobes/machine_load.hpp"
 
 namespace thinwall::study {
 
 namespace {
 
 /// Of heard frequencies from those of a structure that was tapped at rest, relative: bearings that turn and a tool that
-/// cuts shift modes by some percent.
+/// cuts shift modes by some percent. Chosen by the cuts of cases/hajdu-2020 that were left out, after 0.02 and 0.035
+/// had been seen (docs/theory/calibration.md).
 constexpr double heard_deviation = 0.05;
 constexpr std::size_t limit_draws = 60, candidate_draws = 60;
 constexpr int limit_speeds = 40, candidate_speeds = 24, candidate_depths = 12;
 
-/// Speeds and depths that fill the chart.
-std::vector<milling::OperatingPoint> candidates_of(const setup::LobesOptions& lobes) {
+/// Speeds and depths that fill the chart and that the machine can do.
+std::vector<milling::OperatingPoint> candidates_of(const setup::CutSetup& source,
+                                                   const milling::MillingProcess& process) {
+  const setup::LobesOptions& lobes = *source.lobes;
+  const milling::MachineLimits machine = source.machine.value_or(milling::MachineLimits{});
+  const std::optional<milling::CutLoad> load = load_of(source, process);
   std::vector<milling::OperatingPoint> list;
   for (const double rpm : milling::spindle_speeds(lobes.from_rpm, lobes.to_rpm, candidate_speeds)) {
-    for (int d = 1; d <= candidate_depths; ++d)
-      list.push_back({rpm, std::min(lobes.depth_limit, lobes.depth_limit * d / candidate_depths)});
+    for (int d = 1; d <= candidate_depths; ++d) {
+      const milling::OperatingPoint point{rpm, std::min(lobes.depth_limit, lobes.depth_limit * d / candidate_depths)};
+      if (can_do(machine, load, point)) list.push_back(point);
+    }
   }
   return list;
 }
 
 /// The value that a share of the ascending list reaches at least.
 double reached_by(const std::vector<double>& ascending, double share) {
-  const auto at = static_cast<std::size_t>(std::floor((1.0 - share) * static_cast<double>(ascending.size())));
+  // 1 − 0.9 is a little below a tenth.
+  const auto at = static_cast<std::size_t>(std::floor((1.0 - share) * static_cast<double>(ascending.size()) + 1e-9));
   return ascending[std::min(at, ascending.size() - 1)];
 }
 
@@ -69,6 +80,20 @@ milling::Score score_of(const learning::CutModel& model, const learning::Predict
   return score;
 }
 
+/// The next cut; none, with a warning, where every one is beyond the machine or too likely to chatter.
+std::optional<learning::NextCut> next_cut_for(double rpm, const learning::Calibration& learned,
+                                              const std::vector<milling::OperatingPoint>& candidates) {
+  std::optional<learning::NextCut> next;
+  if (!candidates.empty()) next = learning::next_cut(learned, candidate_draws, rpm, candidates);
+  if (!next) {
+    core::warn(
+        fmt::format("calibration: no next cut for {:g} rpm, since every cut of the chart lies beyond [machine] or "
+                    "chatters with a probability above {:g}; look at the limits of [machine]",
+                    rpm, learning::riskiest_next_cut));
+  }
+  return next;
+}
+
 void tell_of_doubt(const learning::Calibration& learned) {
   if (!learned.likeliest.converged)
     core::warn("calibration: the likeliest parameters were not found within 60 steps; fewer uncertain ones may be");
@@ -86,6 +111,12 @@ learning::CutModel cut_model(const setup::CutSetup& source, const milling::Cut& 
   model.nominal = nominal;
   if (source.lobes->robust)
     model.parameters = milling::uncertain_parameters(nominal, source.lobes->robust->uncertainty);
+  if (std::ssize(model.parameters) > learning::most_parameters) {
+    throw core::InputError(
+        fmt::format("calibration: {} parameters are uncertain, must be at most {}; set what is known in "
+                    "[lobes.uncertainty] to 0, or give fewer modes (lobes.modes_up_to)",
+                    model.parameters.size(), learning::most_parameters));
+  }
   model.cuts = setup::all_cuts(source.observed);
   model.options = options;
   model.frequency_deviation = heard_deviation;
@@ -108,7 +139,7 @@ LearnedChart learned_chart(const setup::CutSetup& source, const milling::Cut& no
   if (wanted.folds) chart.cross_validated = learning::cross_validated(model, *wanted.folds);
   chart.rows = limits_of_draws(*source.lobes, chart.calibration, options);
   const auto rpm = wanted.spindle_speed_rpm ? wanted.spindle_speed_rpm : source.cutting->spindle_speed_rpm;
-  if (rpm) chart.next = learning::next_cut(chart.calibration, candidate_draws, *rpm, candidates_of(*source.lobes));
+  if (rpm) chart.next = next_cut_for(*rpm, chart.calibration, candidates_of(source, nominal.process));
   return chart;
 }
 

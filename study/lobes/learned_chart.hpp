@@ -8,7 +8,7 @@
 namespace thinwall::study {
 
 /// The likelihood of the set-up's cuts with [lobes.uncertainty] as what is known beforehand. Throws InputError for a
-/// bad uncertainty.
+/// bad uncertainty, and for more than learning::most_parameters parameters.
 [[nodiscard]] learning::CutModel cut_model(const setup::CutSetup& source, const milling::Cut& nominal,
                                            const milling::StabilityOptions& options);
 

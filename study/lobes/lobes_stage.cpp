@@ -22,6 +22,7 @@
 #include "study/lobes/learned_chart.hpp"
 #include "study/lobes/lobe_sensitivity.hpp"
 #include "study/lobes/low_limit.hpp"
+#include "study/lobes/machine_load.hpp"
 #include "study/lobes/main_modes.hpp"
 #include "study/lobes/observed_cuts.hpp"
 
@@ -163,7 +164,15 @@ void add_observed(const setup::CutSetup& source, const Chart& chart, StructureLo
     result.observed[i] = {cuts[i], stability_of(point, chart, source.lobes->method, result.lobes), {}, {}, {}};
     progress.step();
   });
-  if (chart.poles() == nullptr) return;
+  if (chart.poles() == nullptr) {
+    if (source.calibration) {
+      core::warn(
+          fmt::format("calibration: it needs poles, and the structure of the chart \"{}\" is known by samples "
+                      "only, so that nothing is learned; fit modes to what was measured (fit = true)",
+                      core::word_of(result.of)));
+    }
+    return;
+  }
   const milling::Cut nominal{*chart.poles(), chart.process};
   const std::vector<double> probability = chatter_probabilities(source, nominal, chart.options.stability);
   for (std::size_t i = 0; i < probability.size(); ++i) {
@@ -231,9 +240,7 @@ void tell_of_doubt(const StructureLobes& chart) {
 void add_pockets(const setup::CutSetup& source, const milling::MillingProcess& process, StructureLobes& result) {
   constexpr std::size_t most = 5;
   const milling::MachineLimits machine = source.machine.value_or(milling::MachineLimits{});
-  std::optional<milling::CutLoad> load;
-  if (const auto feed = setup::feed_per_tooth(source); feed && source.tool->end == setup::ToolEnd::flat)
-    load = milling::cut_load(process, *feed);
+  const std::optional<milling::CutLoad> load = load_of(source, process);
   result.pockets = milling::best_pockets(result.lobes.rows, machine, load, most);
   if (!result.robust) return;
   result.robust_pockets = milling::best_pockets(robust_rows(result.lobes.rows, *result.robust), machine, load, most);

@@ -48,7 +48,10 @@ Certainty certainty_of(double chatter_probability, double confidence) {
 }
 
 std::optional<bool> is_right(const JudgedCut& cut) {
+  using Status = milling::StabilityStatus;
   if (cut.observed.outcome == milling::CutOutcome::marginal) return std::nullopt;
+  for (const Status doubtful : {Status::node_limit_reached, Status::data_insufficient, Status::crossing_missed})
+    if (cut.predicted.status == doubtful) return std::nullopt;
   return cut.predicted.stable == (cut.observed.outcome == milling::CutOutcome::stable);
 }
 

@@ -23,7 +23,8 @@ namespace thinwall::study {
 /// 1 − Φ(k), certainly unstable from Φ(k), open between.
 [[nodiscard]] Certainty certainty_of(double chatter_probability, double confidence);
 
-/// True if the prediction is what was seen; none of a marginal cut.
+/// True if the prediction is what was seen; none of a marginal cut, and where the prediction did not
+/// converge.
 [[nodiscard]] std::optional<bool> is_right(const JudgedCut& cut);
 
 }  // namespace thinwall::study

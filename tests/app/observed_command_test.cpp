@@ -108,24 +108,47 @@ TEST_F(ObservedCommand, LearnsFromCuts) {
   for (const auto& row : learned["rows"]) EXPECT_LE(row["stable_95_m"], row["median_m"]);
 }
 
+TEST_F(ObservedCommand, ProposesNoCutBeyondTheMachine) {
+  write("case.toml", tool_case + cut("12000", "0.3", "chatter") + "[machine]\nmax_spindle_speed = \"9500 rpm\"\n");
+  const Outcome done = command({"calibrate", path("case.toml"), "--draws", "40", "--out", path("results"), "-q"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  ASSERT_TRUE(chart()["learned"].contains("next_cut"));
+  EXPECT_LE(chart()["learned"]["next_cut"]["spindle_speed_rpm"].get<double>(), 9500.0);
+  EXPECT_LE(chart()["learned"]["next_cut"]["chatter_probability"].get<double>(), 0.6);
+  const Outcome outside =
+      command({"calibrate", path("case.toml"), "--speed", "100 rpm", "--out", path("results"), "-q"});
+  EXPECT_EQ(outside.code, 3);
+  EXPECT_NE(outside.err.find("100 rpm lies outside the chart"), std::string::npos) << outside.err;
+}
+
 TEST_F(ObservedCommand, WritesThePageThatItThenFindsTrue) {
-  for (const char* folder : {"cases/one", "cases/without", "docs"})
+  for (const char* folder : {"cases/one", "cases/without", "cases/spaced", "cases/inline", "docs"})
     std::filesystem::create_directories(temporary.path / folder);
   write("cases/one/case.toml",
         "title = \"One\"\n" + tool_case + cut("9500", "0.001", "stable") + cut("9500", "4", "stable"));
+  // Other spellings of the same key, as TOML allows them.
+  write("cases/spaced/case.toml", tool_case + "[[ observed ]]" + cut("9500", "0.001", "stable").substr(12));
+  write("cases/inline/case.toml",
+        "observed = [{spindle_speed = \"9500 rpm\", depth = \"0.001 mm\", observed = \"stable\"}]\n" + tool_case);
   write("cases/one/README.md", "# One\n\n**Published.** All of it.\n\n**Assumed.** Nothing.\n");
   write("cases/without/case.toml", tool_case);
   const std::filesystem::path before = std::filesystem::current_path();
   std::filesystem::current_path(temporary.path);
   const Outcome written = command({"validate", "cases", "--page", path("docs/validation.md"), "-q"});
   const Outcome checked = command({"validate", "cases", "--page", path("docs/validation.md"), "--check", "-q"});
+  write("docs/pictures/validation-one.svg", "<svg/>\n");
+  const Outcome drawn = command({"validate", "cases", "--page", path("docs/validation.md"), "--check", "-q"});
   write("docs/validation.md", "other\n");
   const Outcome differs = command({"validate", "cases", "--page", path("docs/validation.md"), "--check", "-q"});
   const Outcome none = command({"validate", path("docs"), "-q"});
   std::filesystem::current_path(before);
   EXPECT_EQ(written.code, 0) << written.err;
   EXPECT_NE(written.out.find("1 of 2 right"), std::string::npos) << written.out;
+  EXPECT_NE(written.out.find("spaced "), std::string::npos) << written.out;
+  EXPECT_NE(written.out.find("inline "), std::string::npos) << written.out;
   EXPECT_EQ(checked.code, 0) << checked.out;
+  EXPECT_EQ(drawn.code, 6);
+  EXPECT_NE(drawn.out.find("validation-one.svg differs"), std::string::npos) << drawn.out;
   EXPECT_EQ(differs.code, 6);
   EXPECT_EQ(none.code, 3);
   EXPECT_TRUE(std::filesystem::exists(temporary.path / "docs" / "pictures" / "validation-one.svg"));
@@ -152,9 +175,21 @@ TEST_F(ObservedCommand, FitsCoefficientsOfMeanForces) {
     const Outcome done = command(words);
     ASSERT_EQ(done.code, 0) << done.err;
     for (const char* line : {"Kt  = \"750 N/mm^2\"", "Kr  = \"240 N/mm^2\"", "Ka  = \"-110 N/mm^2\"",
-                             "Kte = \"18 N/mm\"", "Kre = \"22 N/mm\"", "Kae = \"-3 N/mm\""})
+                             "Kte = \"18 N/mm\"", "Kre = \"22 N/mm\"", "# Kae = \"-3 N/mm\""})
       EXPECT_NE(done.out.find(line), std::string::npos) << done.out;
+    // What is printed is a table of a case, which is read there.
+    std::string with = tool_case;
+    const std::string own = "Kt = \"600 N/mm^2\"\nKr = \"200 N/mm^2\"\n";
+    with.replace(with.find("[cutting]\n"), 10, done.out);
+    with.replace(with.find(own), own.size(), "");
+    const cases::Case read = cases::parse_case(with, temporary.path);
+    EXPECT_NEAR(read.cutting->Kt, truth.K_t, 1e-4 * truth.K_t);
+    EXPECT_NEAR(read.cutting->Kte, truth.K_te, 1e-4 * truth.K_te);
+    EXPECT_EQ(read.cutting->Kae, 0.0);
   }
+  const Outcome reversed = command({"coefficients", path("part.csv"), "--teeth", "2"});
+  EXPECT_EQ(reversed.code, 3);
+  EXPECT_NE(reversed.err.find("K_t is -750 N/mm^2, must be above 0"), std::string::npos) << reversed.err;
   write("no_unit.csv", "feed_per_tooth_mm,depth_mm,force_feed,force_normal,force_axis\n0.1,1,1,1,1\n");
   const Outcome refused = command({"coefficients", path("no_unit.csv"), "--teeth", "2"});
   EXPECT_EQ(refused.code, 4);

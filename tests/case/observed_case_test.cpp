@@ -120,11 +120,30 @@ TEST(ObservedCase, NamesTheCutOfAFileThatIsWrong) {
   EXPECT_THROW((void)parse_case(tool_case(from_file), negative.folder), core::DataError);
 }
 
+TEST(ObservedCase, SaysOnceWhatItCannotRead) {
+  const std::string unreadable = "[[observed]]\nspindle_speed = \"fast\"\ndepth = \"1 mm\"\nobserved = \"stable\"\n";
+  try {
+    (void)parse_case(tool_case(one_cut + unreadable + unreadable), ".");
+    ADD_FAILURE();
+  } catch (const CaseError& error) {
+    EXPECT_EQ(error.problems.size(), 2u) << error.what();
+  }
+}
+
 TEST(ObservedCase, LearnsOnlyWithCutsAndUncertainty) {
   const std::string uncertain = "[lobes.uncertainty]\nfrequency = 0.01\n";
   EXPECT_TRUE(parse_case(tool_case(uncertain + one_cut + "[calibration]\nseed = 2\n"), ".").calibration);
   expect_problem(uncertain + "[calibration]\nseed = 2\n", "no cuts to learn from");
   expect_problem(one_cut + "[calibration]\nseed = 2\n", "nothing is uncertain beforehand");
+  std::string modes;
+  for (int i = 0; i < 24; ++i) {
+    modes += "[[tool.modes]]\nfrequency = \"" + std::to_string(600 + 50 * i) +
+             " Hz\"\ndamping_ratio = 0.02\nstiffness = \"1e6 N/m\"\ndirection = \"x\"\n";
+  }
+  expect_problem(uncertain + one_cut + "[calibration]\nseed = 2\n" + modes,
+                 "25 parameters of 25 modes are uncertain, must be at most 24");
+  expect_problem(uncertain + one_cut + "[calibration]\nspindle_speed = \"100 rpm\"\n",
+                 "100 rpm lies outside the chart, 2000 to 8000 rpm");
 }
 
 }  // namespace

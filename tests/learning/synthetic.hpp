@@ -42,12 +42,12 @@ inline Machine drawn_machine(unsigned seed, int cuts) {
   model.parameters = milling::uncertain_parameters(model.nominal, {0.03, 0.2, 0.1, 0.15});
   model.options.depth_limit_m = 3e-3;
   machine.truth = milling::standard_normal(std::ssize(model.parameters), random);
-  const double decay = (-model.nominal.structure.poles.real()).minCoeff();
   for (int i = 0; i < cuts; ++i) {
     milling::ObservedCut cut{5000.0 + 8000.0 * uniform(), 2.2e-3 * uniform() + 1e-4};
-    const auto mu = milling::multiplier_slope(model.nominal, model.parameters, machine.truth,
-                                              {cut.spindle_speed_rpm, cut.depth_m}, false);
-    const bool chatters = uniform() < chatter_probability(mu.log_modulus / (mu.period_s * decay), 0.1);
+    const milling::OperatingPoint at{cut.spindle_speed_rpm, cut.depth_m};
+    const auto mu = milling::multiplier_slope(model.nominal, model.parameters, machine.truth, at,
+                                              model.nominal.structure.poles, false);
+    const bool chatters = uniform() < chatter_probability(mu.margin, 0.1);
     cut.outcome = chatters ? milling::CutOutcome::chatter : milling::CutOutcome::stable;
     const double heard = mu.frequency_hz * (1.0 + 0.01 * core::normal_draw(random));
     if (chatters && i % 2 == 0) cut.chatter_frequency_hz = heard;

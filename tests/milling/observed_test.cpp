@@ -112,7 +112,8 @@ TEST(MultiplierSlope, IsTheDifferenceOfMultipliers) {
       const Cut other = cut_at(cut, parameters, z);
       return multiplier_at(other.structure, other.process, point.spindle_speed_rpm, point.depth_m, exact);
     };
-    const MultiplierSlope slope = multiplier_slope(cut, parameters, Eigen::VectorXd::Zero(8), point, true);
+    const MultiplierSlope slope =
+        multiplier_slope(cut, parameters, Eigen::VectorXd::Zero(8), point, cut.structure.poles, true);
     const Multiplier here = multiplier(Eigen::VectorXd::Zero(8));
     EXPECT_NEAR(slope.log_modulus, std::log(here.modulus), 1e-3);  // of one grid, as good as the search's second
     EXPECT_NEAR(slope.frequency_hz, here.chatter_frequency_hz, 1e-3 * here.chatter_frequency_hz);
