@@ -39,6 +39,7 @@ coupling::CoupledResponse without(const dynamics::ResponseModel& measured, const
 /// "1.x by up to 4 % at 812 Hz"
 std::vector<std::string> changes(const std::vector<setup::SensorEffect>& effects) {
   std::vector<std::string> words;
+  words.reserve(effects.size());
   for (const setup::SensorEffect& effect : effects)
     words.push_back(effect.dof + " by up to " + core::number_text(100.0 * effect.largest_change, 3) + " % at " +
                     core::number_text(effect.at_frequency_hz, 4) + " Hz");
