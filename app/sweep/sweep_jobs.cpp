@@ -66,7 +66,7 @@ SweepJobs sweep_jobs(const SweepRequest& sweep, const SweepTable& table, const f
 }
 
 void write_jobs(const SweepRequest& sweep, const SweepJobs& jobs, std::ostream& out) {
-  // What an earlier sweep left there is not that of this one.
+  // Logs and starts of an earlier sweep would be taken for those of this one.
   fs::remove_all(jobs.folder / "shards");
   fs::create_directories(jobs.folder / "shards");
   out << jobs.shards << " shards, each " << about(jobs.seconds) << '\n';

@@ -18,7 +18,7 @@ namespace {
 
 /// The keys of a cut that is given by itself.
 constexpr const char* needed_keys[] = {"spindle_speed", "depth", "observed"};
-/// Those by which such a cut is judged.
+/// The keys by which an observed cut is judged.
 constexpr const char* judged_keys[] = {"spindle_speed", "depth", "observed", "chatter_frequency"};
 
 /// A key below an entry, and what is wrong there; an empty text: nothing.
@@ -113,7 +113,7 @@ void check_wanted_speed(const Case& source, Findings& findings) {
                   *rpm, source.lobes->from_rpm, source.lobes->to_rpm));
 }
 
-/// Of a tool alone the parameters are known before the chart; others are counted with it.
+/// The parameters of a tool alone are known before the chart; others are counted with it.
 void check_parameters(const Case& source, const milling::Uncertainty& known, Findings& findings) {
   if (!source.tool || source.part || source.robot || !source.measured_part.empty()) return;
   const int of_a_mode =

@@ -20,7 +20,7 @@ namespace {
 using Eigen::Index;
 using std::complex;
 
-/// Those with Im ≥ 0, by falling modulus.
+/// The multipliers with Im ≥ 0, by falling modulus.
 std::vector<complex<double>> descending(const Eigen::VectorXcd& multipliers) {
   std::vector<complex<double>> list;
   for (const complex<double>& mu : multipliers)

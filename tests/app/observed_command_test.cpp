@@ -177,7 +177,7 @@ TEST_F(ObservedCommand, FitsCoefficientsOfMeanForces) {
     for (const char* line : {"Kt  = \"750 N/mm^2\"", "Kr  = \"240 N/mm^2\"", "Ka  = \"-110 N/mm^2\"",
                              "Kte = \"18 N/mm\"", "Kre = \"22 N/mm\"", "# Kae = \"-3 N/mm\""})
       EXPECT_NE(done.out.find(line), std::string::npos) << done.out;
-    // What is printed is a table of a case, which is read there.
+    // The table that is printed is one of a case, and is read as such.
     std::string with = tool_case;
     const std::string own = "Kt = \"600 N/mm^2\"\nKr = \"200 N/mm^2\"\n";
     with.replace(with.find("[cutting]\n"), 10, done.out);

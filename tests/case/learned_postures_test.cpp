@@ -120,7 +120,7 @@ void write_loaded(const std::filesystem::path& folder, int count, double mass_kg
   }
 }
 
-/// What is learned of tables with a sensor on is what is learned of those without it, once its mass is taken off.
+/// Tables that were measured with a sensor teach the same as those without it, once its mass is taken off.
 TEST(LearnedPostures, AreFreedOfASensorsMassBeforeAnythingIsLearned) {
   const tests::TemporaryFolder bare, loaded;
   write_loaded(bare.path, 9, 0.0);

@@ -32,7 +32,7 @@ bool slow() {
   return std::getenv("THINWALL_SLOW") != nullptr;
 }
 
-/// What a case learns from the first `count` postures, with or without the arm.
+/// The predictor that a case learns from the first `count` postures, with or without the arm.
 class Learned {
  public:
   Learned(int count, bool with_mean) : Learned(robot_of(count, with_mean)) {}
@@ -60,7 +60,7 @@ class Learned {
     const Case source = parse_case(postures.text(there, with_mean ? mean_at(there) : ""), postures.folder.path);
     return std::get<setup::TabledRobot>(source.robot->model);
   }
-  /// Of the foot, which stands still, and of the six joints.
+  /// The coordinates of the foot, which stands still, and of the six joints.
   static Eigen::VectorXd joints_of(const TestPosture& there) {
     Eigen::VectorXd q = Eigen::VectorXd::Zero(8);
     q.tail(6) = Eigen::Map<const Eigen::VectorXd>(there.joints_rad.data(), 6);
@@ -143,7 +143,7 @@ TEST(LearningCurves, ReachThoseOfAnotherProgram) {
   }
 }
 
-/// How many of the true values lie within their intervals of 95 %.
+/// A count of the true values that lie within their intervals of 95 %.
 struct Coverage {
   int inside = 0, all = 0;
   void count(bool is_inside) {
@@ -153,7 +153,7 @@ struct Coverage {
   [[nodiscard]] double share() const { return static_cast<double>(inside) / all; }
 };
 
-/// Of the eleven modes, paired with those that are predicted by shape and frequency.
+/// Counts the eleven modes, paired with those that are predicted by shape and frequency.
 void count_frequencies(const PosturePrediction& at, const TestPosture& there, Coverage& coverage) {
   std::vector<identification::FittedMode> known;
   for (std::size_t k = 0; k < there.modes.size(); ++k) {

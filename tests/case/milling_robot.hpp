@@ -138,7 +138,7 @@ class FewPostures {
       few << line << '\n';  // beside a remark and the header
     modes = (all / "modes").string();
   }
-  /// Its text; `of_mean`: mean_at(), or nothing for plain processes.
+  /// The text of the case; `of_mean`: mean_at(), or nothing for plain processes.
   [[nodiscard]] std::string text(const TestPosture& there, const std::string& of_mean) const {
     return "[robot]\nmodel = \"modal_table\"\ncarries = \"tool\"\npostures = \"postures.csv\"\ntable = \"" + modes +
            "/{posture}.csv\"\nover = [\"x_mm\", \"y_mm\", \"kappa_deg\"]\n" +

@@ -20,7 +20,7 @@ namespace {
 using Op2 = ScratchFolder;
 
 const Eigen::Matrix3d K = (Eigen::Matrix3d() << 4e6, -1e5, 0.0, -1e5, 3e6, 0.0, 0.0, 0.0, 1e6).finished();
-/// Its first column has two strings, its second none.
+/// The mass matrix: its first column has two strings, its second none.
 const Eigen::Matrix3d M = (Eigen::Matrix3d() << 2.0, 0.0, 0.25, 0.0, 0.0, 0.0, 0.25, 0.0, 1.0).finished();
 
 /// Data blocks of OUTPUT2.

@@ -1,4 +1,4 @@
-// What cuts of synthetic machines teach, against the machines' true parameters.
+// Calibrations from cuts of synthetic machines, against the machines' true parameters.
 
 #include "learning/calibration.hpp"
 
