@@ -51,24 +51,40 @@ Eigen::VectorXd chatter_of(const CutModel& model, const std::vector<Draw>& draws
   return p;
 }
 
-Eigen::VectorXd log_limits(const std::vector<Draw>& draws, double rpm, const milling::StabilityOptions& options) {
-  Eigen::VectorXd y(std::ssize(draws));
-  milling::StabilityOptions first = options;
-  first.follow = 1.0;
-  core::parallel_for(draws.size(), [&](std::size_t i) {
-    y(static_cast<Index>(i)) =
-        std::log(milling::limiting_depth(draws[i].cut.structure, draws[i].cut.process, rpm, first).limiting_depth_m);
-  });
-  return y;
+/// ln of each draw's limiting depth. Draws without an answer are left out of both; throws NumericalError if half are.
+Eigen::VectorXd log_limits(std::vector<Draw>& draws, double rpm, const milling::StabilityOptions& options) {
+  std::vector<std::optional<double>> limits(draws.size());
+  core::parallel_for(draws.size(), [&](std::size_t i) { limits[i] = answered_limit_m(draws[i].cut, rpm, options); });
+  std::vector<Draw> answered;
+  std::vector<double> y;
+  for (std::size_t i = 0; i < draws.size(); ++i) {
+    if (!limits[i]) continue;
+    y.push_back(std::log(*limits[i]));
+    answered.push_back(std::move(draws[i]));
+  }
+  if (2 * y.size() < limits.size())
+    throw core::NumericalError("next cut: no limiting depth is found for most draws; choose another speed");
+  draws = std::move(answered);
+  return Eigen::Map<const Eigen::VectorXd>(y.data(), std::ssize(y));
 }
 
 }  // namespace
+
+std::optional<double> answered_limit_m(const milling::Cut& cut, double spindle_speed_rpm,
+                                       milling::StabilityOptions options) {
+  options.follow = 1.0;
+  const milling::LobeRow row = milling::limiting_depth(cut.structure, cut.process, spindle_speed_rpm, options);
+  const bool is_doubtful = row.status == milling::StabilityStatus::crossing_missed ||
+                           row.status == milling::StabilityStatus::data_insufficient;
+  if (is_doubtful || !(row.limiting_depth_m > 0.0)) return std::nullopt;
+  return row.limiting_depth_m;
+}
 
 std::optional<NextCut> next_cut(const Calibration& calibration, std::size_t draws, double spindle_speed_rpm,
                                 const std::vector<milling::OperatingPoint>& candidates) {
   if (draws == 0 || candidates.empty())
     throw core::InputError("next cut: it needs draws and candidates; give at least one of each");
-  const std::vector<Draw> taken = some_draws(calibration, draws);
+  std::vector<Draw> taken = some_draws(calibration, draws);
   const Eigen::VectorXd y = log_limits(taken, spindle_speed_rpm, calibration.model.options);
   const auto n = static_cast<double>(taken.size());
   std::vector<NextCut> judged(candidates.size());

@@ -32,4 +32,9 @@ struct NextCut {
                                               double spindle_speed_rpm,
                                               const std::vector<milling::OperatingPoint>& candidates);
 
+/// The limiting depth of a cut, m; none if its first crossing was missed or the depth is no positive number. Throws as
+/// milling::limiting_depth(). Cost: one row.
+[[nodiscard]] std::optional<double> answered_limit_m(const milling::Cut& cut, double spindle_speed_rpm,
+                                                     milling::StabilityOptions options);
+
 }  // namespace thinwall::learning

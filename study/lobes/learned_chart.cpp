@@ -52,21 +52,28 @@ std::vector<LearnedChart::Row> limits_of_draws(const setup::LobesOptions& lobes,
                                                milling::StabilityOptions options) {
   const std::vector<double> speeds = milling::spindle_speeds(lobes.from_rpm, lobes.to_rpm, limit_speeds);
   const std::vector<milling::Cut> cuts = learning::cuts_of_draws(learned, limit_draws);
-  options.follow = 1.0;
-  const auto limit = [&](const milling::Cut& cut, double rpm) {
-    return milling::limiting_depth(cut.structure, cut.process, rpm, options).limiting_depth_m;
-  };
-  std::vector<LearnedChart::Row> rows(speeds.size());
+  std::vector<std::optional<LearnedChart::Row>> rows(speeds.size());
   core::Progress progress("limits of the draws", speeds.size());
   core::parallel_for(speeds.size(), [&](std::size_t i) {
     std::vector<double> limits;
-    for (const milling::Cut& cut : cuts) limits.push_back(limit(cut, speeds[i]));
+    limits.reserve(cuts.size());
+    for (const milling::Cut& cut : cuts)
+      if (const auto limit = learning::answered_limit_m(cut, speeds[i], options)) limits.push_back(*limit);
     std::ranges::sort(limits);
-    rows[i] = {speeds[i], limit(learned.model.nominal, speeds[i]), reached_by(limits, 0.5), reached_by(limits, 0.9),
-               reached_by(limits, 0.95)};
+    const std::optional<double> nominal = learning::answered_limit_m(learned.model.nominal, speeds[i], options);
+    if (nominal && 2 * limits.size() >= cuts.size())
+      rows[i] = LearnedChart::Row{speeds[i], *nominal, reached_by(limits, 0.5), reached_by(limits, 0.9),
+                                  reached_by(limits, 0.95)};
     progress.step();
   });
-  return rows;
+  std::vector<LearnedChart::Row> answered;
+  answered.reserve(rows.size());
+  for (const auto& row : rows)
+    if (row) answered.push_back(*row);
+  if (answered.size() < rows.size())
+    core::warn(fmt::format("calibration: of {} speeds {} have no learned limit, for its search missed a crossing",
+                           rows.size(), rows.size() - answered.size()));
+  return answered;
 }
 
 milling::Score score_of(const learning::CutModel& model, const learning::PredictedCuts& predicted) {
