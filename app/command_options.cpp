@@ -5,6 +5,7 @@
 #include "app/completion.hpp"
 #include "app/doctor.hpp"
 #include "app/memory_option.hpp"
+#include "app/ranks_option.hpp"
 #include "case/templates.hpp"
 
 namespace thinwall::app {
@@ -158,6 +159,7 @@ void describe_reduce(CLI::App& app, Arguments& arguments) {
   command->add_option("--characteristic", reduce.characteristic, "amplitudes of a reduced interface")
       ->check(CLI::Range(1, 2000));
   command->add_flag("--compare", reduce.compare, "a table of all methods at this size");
+  add_ranks_option(*command, arguments.ranks);
   add_memory_option(*command);
   add_log_arguments(*command, arguments);
 }
@@ -329,6 +331,7 @@ void describe(CLI::App& app, Arguments& arguments) {
   auto* run_command = app.add_subcommand("run", "compute a case");
   add_case_arguments(*run_command, arguments);
   add_run_arguments(*run_command, arguments);
+  add_ranks_option(*run_command, arguments.ranks);
   describe_lobes(app, arguments);
   auto* robot_command = app.add_subcommand(
       "robot", "modes and stiffness of the robot's tip in its posture, along a path, over a workspace");

@@ -40,7 +40,7 @@ struct Arguments {
   SweepRequest sweep;
   MergeRequest merge;
   bool fresh = false, quiet = false, verbose = false, all = false;
-  int threads = 0;
+  int threads = 0, ranks = 1;
   double tolerance = 1e-9;
 };
 

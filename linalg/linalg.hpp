@@ -10,6 +10,7 @@
 #include "linalg/complex_lu.hpp"
 #include "linalg/eigenpair_check.hpp"
 #include "linalg/eigenpairs.hpp"
+#include "linalg/external_factor.hpp"
 #include "linalg/inverse_iteration.hpp"
 #include "linalg/library_threads.hpp"
 #include "linalg/ordering.hpp"

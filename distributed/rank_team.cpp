@@ -1,0 +1,339 @@
+#include "distributed/rank_team.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <mutex>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/memory.hpp"
+#include "core/messages.hpp"
+#include "core/units.hpp"
+#include "distributed/child_process.hpp"
+#include "distributed/matrix_file.hpp"
+#include "distributed/open_file.hpp"
+
+namespace thinwall::distributed {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Access = OpenFile::Access;
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* program_name = "thinwall-mpi";
+
+std::string variable(const char* name, const std::string& otherwise) {
+  const char* value = std::getenv(name);
+  return value != nullptr && *value != '\0' ? value : otherwise;
+}
+
+/// The place of a program: the name itself if it is a path, else the first on the PATH; empty if there is none.
+fs::path found_program(const std::string& name) {
+  if (name.find('/') != std::string::npos) return ::access(name.c_str(), X_OK) == 0 ? fs::path(name) : fs::path();
+  std::istringstream folders(variable("PATH", "/usr/bin:/bin"));
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const fs::path file = fs::path(folder) / name;
+    if (::access(file.c_str(), X_OK) == 0) return file;
+  }
+  return {};
+}
+
+/// The words that start the ranks, without the program and its folder.
+std::vector<std::string> launcher(int ranks) {
+  std::vector<std::string> words;
+  std::istringstream text(variable("THINWALL_MPIRUN", "mpirun"));
+  for (std::string word; text >> word;) words.push_back(word);
+  words.insert(words.end(), {"-n", std::to_string(ranks)});
+  return words;
+}
+
+/// The environment of the ranks. Open MPI would pin each rank with all its threads to one core, poll while a rank waits,
+/// count cores before it starts a process, and refuse root, as which it runs in containers; this program's own user is
+/// the one who asked.
+std::map<std::string, std::string> environment(int threads) {
+  std::map<std::string, std::string> result{{"OMP_NUM_THREADS", std::to_string(threads)},
+                                            {"OPENBLAS_NUM_THREADS", std::to_string(threads)},
+                                            {"OMPI_MCA_hwloc_base_binding_policy", "none"},
+                                            {"OMPI_MCA_mpi_yield_when_idle", "1"},
+                                            {"OMPI_MCA_rmaps_base_oversubscribe", "1"}};
+  if (::geteuid() == 0) {
+    result["OMPI_ALLOW_RUN_AS_ROOT"] = "1";
+    result["OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"] = "1";
+  }
+  return result;
+}
+
+/// The line of the launcher's errors that tells most: that of a rank's end, else the last that has letters.
+std::string told_by(const fs::path& log) {
+  std::ifstream file(log);
+  std::string told;
+  for (std::string line; std::getline(file, line);) {
+    if (line.find("exited on signal") != std::string::npos) return line;
+    if (std::ranges::any_of(line, [](unsigned char c) { return std::isalpha(c) != 0; })) told = line;
+  }
+  return told;
+}
+
+std::string memory_text(double bytes) {
+  return core::readable_text(bytes, core::kind::memory);
+}
+
+}  // namespace
+
+fs::path rank_program() {
+  const std::string named = variable("THINWALL_MPI", "");
+  if (!named.empty()) return found_program(named);
+  std::error_code none;
+  const fs::path beside = fs::read_symlink("/proc/self/exe", none).parent_path() / program_name;
+  return ::access(beside.c_str(), X_OK) == 0 ? beside : found_program(program_name);
+}
+
+std::string ranks_in_words() {
+  const fs::path program = rank_program();
+  if (program.empty()) return "absent: install libpetsc-real-dev and build again, or the package thinwall-mpi";
+  const std::string command = launcher(1).front();
+  if (found_program(command).empty()) return "thinwall-mpi without " + command + ": install openmpi-bin";
+  return "there (" + program.string() + ", started by " + found_program(command).string() + ")";
+}
+
+struct RankTeam::Impl {
+  TeamOptions options;
+  fs::path scratch;
+  std::unique_ptr<ChildProcess> ranks;
+  std::mutex busy;  // one order at a time
+  int factors = 0;  // made so far
+
+  [[nodiscard]] fs::path matrix() const { return scratch / "matrix"; }
+  [[nodiscard]] fs::path columns() const { return scratch / "columns"; }
+  [[nodiscard]] fs::path log() const { return scratch / "errors"; }
+
+  /// The error of a team that has ended.
+  [[noreturn]] void ended() const {
+    ranks->ends_within(0.5);  // its last words
+    const std::string told = told_by(log());
+    throw core::NumericalError("the ranks of --ranks " + std::to_string(options.ranks) + " have ended" +
+                               (told.empty() ? "" : ": " + told) +
+                               "; run again: with more memory or more ranks if one ran out of it");
+  }
+
+  /// The next line of the ranks. An interruption ends them, for an answer to come would be taken for the next one's.
+  std::optional<std::string> next_line() {
+    try {
+      return ranks->hear();
+    } catch (const core::Error&) {
+      ranks.reset();
+      throw;
+    }
+  }
+
+  /// The answer to an order: the words behind "=", of which the first is the expected one. Other lines are what
+  /// libraries print.
+  std::istringstream ask(const std::string& order, const std::string& expected) {
+    if (!ranks) throw core::NumericalError("the ranks have ended after an interruption: start them anew");
+    ranks->say(order);
+    while (true) {
+      const std::optional<std::string> line = next_line();
+      if (!line) ended();
+      if (!line->starts_with("= ")) continue;
+      std::istringstream words(line->substr(2));
+      std::string first, rest;
+      words >> first;
+      if (first == expected) return words;
+      std::getline(words, rest);
+      if (first == "data_error") throw core::DataError(rest.substr(1));
+      throw core::NumericalError("the ranks: " + rest.substr(rest.empty() ? 0 : 1));
+    }
+  }
+
+  void start();
+  linalg::FactorStatistics factorise(int number, const linalg::SparseMatrix& A, const linalg::FactorOptions& limits);
+  Eigen::MatrixXd solve(int number, const Eigen::Ref<const Eigen::MatrixXd>& B);
+};
+
+void RankTeam::Impl::start() {
+  const fs::path program = rank_program();
+  if (program.empty()) {
+    throw core::UsageError("--ranks needs " + std::string(program_name) +
+                           ", which is not there: install the package thinwall-mpi, or libpetsc-real-dev and build "
+                           "again; --ranks 1 needs nothing");
+  }
+  std::vector<std::string> words = launcher(options.ranks);
+  if (found_program(words.front()).empty()) {
+    throw core::UsageError("--ranks: there is no " + words.front() +
+                           " on the PATH: install openmpi-bin, or name the command in THINWALL_MPIRUN");
+  }
+  fs::create_directory(scratch);
+  words.insert(words.end(), {program.string(), scratch.string()});
+  ranks = std::make_unique<ChildProcess>(words, environment(options.threads), log());
+  std::istringstream ready = ask("hello", "ready");
+  int size = 0;
+  std::string library;
+  ready >> size;
+  std::getline(ready, library);
+  if (size != options.ranks) {
+    throw core::UsageError("--ranks " + std::to_string(options.ranks) + ": " + words.front() + " started processes of " +
+                           std::to_string(size) + " rank each: it is not the one of" + library +
+                           ", with which thinwall-mpi was built; name that in THINWALL_MPIRUN");
+  }
+  core::inform(fmt::format("{} ranks of {} thread{} each,{}", size, options.threads, options.threads == 1 ? "" : "s",
+                           library));
+}
+
+/// What the analysis of a matrix tells (docs/scaling.md).
+struct RankForecast {
+  double machine_bytes = 0.0;  ///< that the ranks on the fullest machine will take beside what they hold now
+  double free_bytes = 0.0;     ///< there
+  double least_bytes = 0.0, most_bytes = 0.0;  ///< peak of a rank
+  double seconds = 0.0;
+  linalg::FactorStatistics statistics{};
+};
+
+namespace {
+
+RankForecast forecast_of(std::istream& words) {
+  RankForecast told;
+  words >> told.machine_bytes >> told.free_bytes >> told.least_bytes >> told.most_bytes >> told.seconds >>
+      told.statistics.nonzeros >> told.statistics.flops >> told.statistics.seconds_analysis;
+  told.statistics.bytes = 8.0 * told.statistics.nonzeros;
+  return told;
+}
+
+/// Throws MemoryLimitError where the ranks of a machine would take more than it has.
+void require_memory(const RankForecast& told, int ranks, double limit_bytes, Eigen::Index rows) {
+  double limit = told.free_bytes;
+  for (const double other : {limit_bytes, core::memory_left_bytes()}) {  // 0 where there is no limit
+    if (other > 0.0) limit = std::min(limit, other);
+  }
+  if (limit <= 0.0 || told.machine_bytes <= limit) return;
+  const int enough = static_cast<int>(std::ceil(ranks * told.machine_bytes / limit));
+  throw linalg::MemoryLimitError(
+      fmt::format("the factor of a matrix of {} rows takes {} on the machine of {} ranks, more than the {} that it has: "
+                  "take {} ranks on as many more machines",
+                  rows, memory_text(told.machine_bytes), ranks, memory_text(limit), std::max(enough, ranks + 1)),
+      told.machine_bytes, limit);
+}
+
+}  // namespace
+
+linalg::FactorStatistics RankTeam::Impl::factorise(int number, const linalg::SparseMatrix& A,
+                                                   const linalg::FactorOptions& limits) {
+  write_upper_rows(A, matrix());
+  std::istringstream words = ask("analyse " + std::to_string(number), "analysed");
+  const RankForecast told = forecast_of(words);
+  fs::remove(matrix());
+  core::inform(fmt::format("{} rows on {} ranks: {} to {} a rank, about {} for the factor", A.rows(), options.ranks,
+                           memory_text(told.least_bytes), memory_text(told.most_bytes),
+                           core::readable_text(told.seconds, core::kind::time)));
+  try {
+    require_memory(told, options.ranks, limits.memory_limit_bytes, A.rows());
+  } catch (const linalg::MemoryLimitError&) {
+    (void)ask("drop " + std::to_string(number), "dropped");
+    throw;
+  }
+  double peak_bytes = 0.0;
+  linalg::FactorStatistics statistics = told.statistics;
+  ask("factorise " + std::to_string(number), "factorised") >> statistics.seconds_numeric >> peak_bytes;
+  core::note(fmt::format("the factor took {} s and at most {} a rank", statistics.seconds_numeric,
+                         memory_text(peak_bytes)));
+  return statistics;
+}
+
+Eigen::MatrixXd RankTeam::Impl::solve(int number, const Eigen::Ref<const Eigen::MatrixXd>& B) {
+  const std::lock_guard lock(busy);
+  Eigen::MatrixXd X = B;
+  const std::size_t bytes = sizeof(double) * static_cast<std::size_t>(X.size());
+  if (bytes == 0) return X;
+  OpenFile(columns(), Access::write).write(X.data(), bytes, 0);
+  (void)ask("solve " + std::to_string(number) + " " + std::to_string(X.cols()), "solved");
+  OpenFile(columns(), Access::read).read(X.data(), bytes, 0);
+  return X;
+}
+
+RankTeam::RankTeam(const TeamOptions& options) : impl_(std::make_unique<Impl>()) {
+  impl_->options = options;
+  impl_->scratch = core::partial_path(fs::temp_directory_path() / "thinwall-ranks");
+  try {
+    impl_->start();
+  } catch (...) {
+    impl_->ranks.reset();
+    fs::remove_all(impl_->scratch);
+    throw;
+  }
+}
+
+RankTeam::~RankTeam() {
+  if (impl_->ranks) impl_->ranks->say("quit");
+  if (impl_->ranks) impl_->ranks->ends_within(0.2);
+  impl_->ranks.reset();
+  std::error_code ignored;
+  fs::remove_all(impl_->scratch, ignored);
+}
+
+namespace {
+
+/// A factor on the ranks, by its number there.
+class FactorOnRanks : public linalg::ExternalFactor {
+ public:
+  using Solve = std::function<Eigen::MatrixXd(const Eigen::Ref<const Eigen::MatrixXd>&)>;
+  FactorOnRanks(Solve solve, std::function<void()> drop, const linalg::FactorStatistics& statistics)
+      : solve_(std::move(solve)), drop_(std::move(drop)), statistics_(statistics) {}
+  ~FactorOnRanks() override {
+    try {
+      drop_();
+    } catch (const core::Error&) {  // the ranks have ended, and so has the factor
+    }
+  }
+  FactorOnRanks(const FactorOnRanks&) = delete;
+  FactorOnRanks& operator=(const FactorOnRanks&) = delete;
+
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& B) const override { return solve_(B); }
+  [[nodiscard]] linalg::FactorStatistics statistics() const override { return statistics_; }
+
+ private:
+  Solve solve_;
+  std::function<void()> drop_;
+  linalg::FactorStatistics statistics_;
+};
+
+}  // namespace
+
+std::unique_ptr<linalg::ExternalFactor> RankTeam::factorise(const linalg::SparseMatrix& A,
+                                                            const linalg::FactorOptions& options) {
+  Impl& team = *impl_;
+  const std::lock_guard lock(team.busy);
+  const int number = ++team.factors;
+  const linalg::FactorStatistics statistics = team.factorise(number, A, options);
+  return std::make_unique<FactorOnRanks>(
+      [&team, number](const Eigen::Ref<const Eigen::MatrixXd>& B) { return team.solve(number, B); },
+      [&team, number] {
+        const std::lock_guard dropping(team.busy);
+        (void)team.ask("drop " + std::to_string(number), "dropped");
+      },
+      statistics);
+}
+
+DistributedFactors::DistributedFactors(const TeamOptions& options)
+    : team_(options),
+      before_(linalg::set_factoriser([this, least = options.least_rows](
+                                         const linalg::SparseMatrix& A, const linalg::FactorOptions& limits)
+                                         -> std::unique_ptr<linalg::ExternalFactor> {
+        return A.rows() < least ? nullptr : team_.factorise(A, limits);
+      })) {}
+
+DistributedFactors::~DistributedFactors() {
+  linalg::set_factoriser(std::move(before_));
+}
+
+}  // namespace thinwall::distributed

@@ -1,0 +1,123 @@
+#include "distributed/rank_team.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/interrupt.hpp"
+#include "fem/model.hpp"
+#include "fem/modes.hpp"
+#include "fem/supports.hpp"
+#include "mesh/planar/bend.hpp"
+#include "mesh/planar/prism_mesh.hpp"
+#include "tests/linalg/grid_problem.hpp"
+
+namespace thinwall::distributed {
+namespace rank_team_test {
+
+/// Skips where the ranks' program was not built.
+class RankTeams : public testing::Test {
+ protected:
+  void SetUp() override {
+    ::setenv("THINWALL_MPI", THINWALL_BUILD_DIR "/app/thinwall-mpi", 0);
+    if (rank_program().empty()) GTEST_SKIP() << "thinwall-mpi is not built: libpetsc-real-dev is not installed";
+  }
+};
+
+Eigen::MatrixXd right_sides(Eigen::Index rows, Eigen::Index columns) {
+  Eigen::MatrixXd B(rows, columns);
+  for (Eigen::Index j = 0; j < columns; ++j) {
+    for (Eigen::Index i = 0; i < rows; ++i) B(i, j) = std::sin(0.1 * static_cast<double>(i + 7 * j + 1));
+  }
+  return B;
+}
+
+TEST_F(RankTeams, SolveWhatOneProcessSolvesForAnyNumberOfThem) {
+  const auto problem = linalg::grid_problem(30);
+  const Eigen::MatrixXd B = right_sides(problem.K.rows(), 5);
+  for (const int ranks : {2, 3}) {
+    RankTeam team({.ranks = ranks});
+    const auto of_K = team.factorise(problem.K, {});
+    const auto of_M = team.factorise(problem.M, {});  // both factors are there at the same time
+    EXPECT_LT((problem.K * of_K->solve(B) - B).norm(), 1e-12 * B.norm()) << ranks;
+    EXPECT_LT((problem.M * of_M->solve(B) - B).norm(), 1e-12 * B.norm()) << ranks;
+    EXPECT_LT((problem.K * of_K->solve(B.col(3)) - B.col(3)).norm(), 1e-12 * B.norm()) << ranks;
+    EXPECT_EQ(of_K->solve(B.leftCols(0)).cols(), 0);
+  }
+}
+
+TEST_F(RankTeams, SayThatAMatrixIsNotPositiveDefiniteAndGoOn) {
+  const auto problem = linalg::grid_problem(20);
+  RankTeam team({});
+  const double between = 0.5 * (problem.lambda[0] + problem.lambda[1]);
+  const auto indefinite = linalg::combine(1.0, problem.K, -between, problem.M);
+  EXPECT_THROW((void)team.factorise(indefinite, {}), core::NumericalError);
+  const auto factor = team.factorise(problem.K, {});
+  const Eigen::MatrixXd B = right_sides(problem.K.rows(), 1);
+  EXPECT_LT((problem.K * factor->solve(B) - B).norm(), 1e-12 * B.norm());
+}
+
+TEST_F(RankTeams, RefuseAFactorBeyondTheMemoryAndNameTheRanksThatWouldDo) {
+  const auto problem = linalg::grid_problem(60);
+  RankTeam team({});
+  try {
+    (void)team.factorise(problem.K, {.memory_limit_bytes = 1e5});
+    FAIL() << "a factor of megabytes fits into 0.1 MB";
+  } catch (const linalg::MemoryLimitError& error) {
+    EXPECT_GT(error.needed_bytes, 1e6);
+    EXPECT_DOUBLE_EQ(error.limit_bytes, 1e5);
+    const auto enough = static_cast<int>(std::ceil(2.0 * error.needed_bytes / 1e5));
+    EXPECT_NE(std::string(error.what()).find("take " + std::to_string(enough) + " ranks"), std::string::npos)
+        << error.what();
+  }
+}
+
+/// A plate clamped at one end; `curved`: bent about its width. It is so stout that round-off changes its frequencies by
+/// less than 1e-10; in thin plates it grows as (length / thickness)⁴, whatever factorises.
+fem::Model plate(int order, bool curved) {
+  mesh::PrismMeshOptions options;
+  options.size_m = 0.04;
+  const mesh::Prism flat{{{0, 0}, {0.12, 0}, {0.12, 0.06}, {0, 0.06}}, {}, 0.0, 0.012, {}};
+  const fem::Support foot{"foot", mesh::PlaneRegion{{0, 0, 0}, {1, 0, 0}}, {0, 1, 2}};
+  fem::Shaping bend;
+  if (curved) bend = [](mesh::LagrangeNodes& nodes) { mesh::bend({0.3, 0, 2, 0.06, 0.006}, nodes.positions); };
+  return fem::supported_model(mesh::mesh_prism(flat, options), order, {210e9, 0.3, 7850.0}, {foot}, bend);
+}
+
+TEST_F(RankTeams, GiveTheFrequenciesOfOneProcessForStraightAndCurvedElements) {
+  for (const auto& [order, ranks] : {std::pair{2, 4}, std::pair{4, 2}, std::pair{6, 2}}) {
+    const fem::Model model = plate(order, order > 2);
+    const fem::ModeOptions options{.count = 8, .up_to_hz = {}};
+    const Eigen::VectorXd alone = fem::modes(model, fem::factorise(model), options).frequency_hz;
+    const DistributedFactors factors({.ranks = ranks, .threads = 1, .least_rows = 1});
+    const Eigen::VectorXd together = fem::modes(model, fem::factorise(model), options).frequency_hz;
+    EXPECT_LT((together - alone).cwiseQuotient(alone).cwiseAbs().maxCoeff(), 1e-10) << order << ", " << ranks;
+  }
+}
+
+TEST_F(RankTeams, EndWithinHalfASecondOfAnInterruption) {
+  const auto problem = linalg::grid_problem(500);  // factor and solves take seconds
+  RankTeam team({});
+  std::thread user([] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    core::request_interrupt();
+  });
+  EXPECT_THROW(
+      {
+        const auto factor = team.factorise(problem.K, {});
+        while (true) (void)factor->solve(right_sides(problem.K.rows(), 1));
+      },
+      core::Interrupted);
+  user.join();
+  core::clear_interrupt();
+  EXPECT_THROW((void)team.factorise(problem.K, {}), core::NumericalError);  // the ranks have ended
+}
+
+}  // namespace rank_team_test
+}  // namespace thinwall::distributed
