@@ -1,7 +1,7 @@
 # Installs the headers to include/thinwall, in their folders; run by `cmake --install`. In the sources they include each
 # other relative to the root ("mesh/box.hpp"). In a directory that many libraries share they must do so under the
 # library's name ("thinwall/mesh/box.hpp"), so that no `mesh` or `io` of another library is found instead. Headers that
-# need those of CHOLMOD, Open CASCADE, cereal, JSON or PETSc are not installed; no other header includes them.
+# need those of CHOLMOD, Open CASCADE, cereal, JSON or MUMPS are not installed; no other header includes them.
 set(internal linalg/cholmod.hpp io/surface/step_triangles.hpp case/schema/json_schema.hpp
              study/kept/archive.hpp study/kept/archive_models.hpp)
 list(JOIN THINWALL_FOLDERS "|" folders)

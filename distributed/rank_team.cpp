@@ -22,6 +22,8 @@
 #include "distributed/child_process.hpp"
 #include "distributed/matrix_file.hpp"
 #include "distributed/open_file.hpp"
+#include "linalg/matrix_graph.hpp"
+#include "linalg/ordering.hpp"
 
 namespace thinwall::distributed {
 
@@ -102,7 +104,7 @@ fs::path rank_program() {
 
 std::string ranks_in_words() {
   const fs::path program = rank_program();
-  if (program.empty()) return "absent: install libpetsc-real-dev and build again, or the package thinwall-mpi";
+  if (program.empty()) return "absent: install libmumps-dev and build again, or the package thinwall-mpi";
   const std::string command = launcher(1).front();
   if (found_program(command).empty()) return "thinwall-mpi without " + command + ": install openmpi-bin";
   return "there (" + program.string() + ", started by " + found_program(command).string() + ")";
@@ -116,6 +118,7 @@ struct RankTeam::Impl {
   int factors = 0;  // made so far
 
   [[nodiscard]] fs::path matrix() const { return scratch / "matrix"; }
+  [[nodiscard]] fs::path order() const { return scratch / "order"; }
   [[nodiscard]] fs::path columns() const { return scratch / "columns"; }
   [[nodiscard]] fs::path log() const { return scratch / "errors"; }
 
@@ -166,7 +169,7 @@ void RankTeam::Impl::start() {
   const fs::path program = rank_program();
   if (program.empty()) {
     throw core::UsageError("--ranks needs " + std::string(program_name) +
-                           ", which is not there: install the package thinwall-mpi, or libpetsc-real-dev and build "
+                           ", which is not there: install the package thinwall-mpi, or libmumps-dev and build "
                            "again; --ranks 1 needs nothing");
   }
   std::vector<std::string> words = launcher(options.ranks);
@@ -210,6 +213,17 @@ RankForecast forecast_of(std::istream& words) {
   return told;
 }
 
+/// For each row its place in the elimination, from 1 on: that of this process's own factors.
+std::vector<int> elimination_places(const linalg::SparseMatrix& A) {
+  const linalg::MatrixGraph graph = linalg::pattern_graph(A);
+  std::vector<int> places(static_cast<std::size_t>(A.rows()));
+  int next = 0;
+  for (const int node : linalg::least_fill_order(graph)) {
+    for (const int row : graph.rows[static_cast<std::size_t>(node)]) places[static_cast<std::size_t>(row)] = ++next;
+  }
+  return places;
+}
+
 /// Throws MemoryLimitError where the ranks of a machine would take more than it has.
 void require_memory(const RankForecast& told, int ranks, double limit_bytes, Eigen::Index rows) {
   double limit = told.free_bytes;
@@ -229,7 +243,11 @@ void require_memory(const RankForecast& told, int ranks, double limit_bytes, Eig
 
 linalg::FactorStatistics RankTeam::Impl::factorise(int number, const linalg::SparseMatrix& A,
                                                    const linalg::FactorOptions& limits) {
+  const auto start = Clock::now();
+  const std::vector<int> places = elimination_places(A);
+  const double ordering_s = std::chrono::duration<double>(Clock::now() - start).count();
   write_upper_rows(A, matrix());
+  OpenFile(order(), Access::write).write(places.data(), sizeof(int) * places.size(), 0);
   std::istringstream words = ask("analyse " + std::to_string(number), "analysed");
   const RankForecast told = forecast_of(words);
   fs::remove(matrix());
@@ -244,6 +262,7 @@ linalg::FactorStatistics RankTeam::Impl::factorise(int number, const linalg::Spa
   }
   double peak_bytes = 0.0;
   linalg::FactorStatistics statistics = told.statistics;
+  statistics.seconds_ordering = ordering_s;
   ask("factorise " + std::to_string(number), "factorised") >> statistics.seconds_numeric >> peak_bytes;
   core::note(fmt::format("the factor took {} s and at most {} a rank", statistics.seconds_numeric,
                          memory_text(peak_bytes)));

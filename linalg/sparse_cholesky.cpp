@@ -10,7 +10,6 @@
 #include "core/units.hpp"
 #include "linalg/external_factor.hpp"
 #include "linalg/large_array.hpp"
-#include "linalg/minimum_fill.hpp"
 #include "linalg/ordering.hpp"
 #include "linalg/supernodal_factor.hpp"
 #include "linalg/supernodal_solve.hpp"
@@ -66,9 +65,8 @@ struct SparseCholesky::Impl {
 
   void analyse(const SparseMatrix& A) {
     auto start = Clock::now();
-    constexpr int small = 1500;  // nodes beyond which finding the order of least fill takes longer than it saves
     const MatrixGraph graph = pattern_graph(A);
-    const std::vector<int> order = graph.size() <= small ? minimum_fill_order(graph) : elimination_order(graph);
+    const std::vector<int> order = least_fill_order(graph);
     statistics.seconds_ordering = seconds_since(start);
     start = Clock::now();
     L = symbolic_factor(graph, order);

@@ -1,6 +1,6 @@
 // thinwall-mpi FOLDER: the ranks that factorise large matrices for `thinwall run CASE --ranks N`, which starts them.
 
-#include <petscsys.h>
+#include <mpi.h>
 #include <sys/prctl.h>
 
 #include <csignal>
@@ -16,7 +16,7 @@ namespace {
 /// Tells the program that started the ranks why they end, and ends all of them.
 int end_all(const char* kind, const std::exception& error) {
   std::cout << "= " << kind << ' ' << error.what() << std::endl;
-  return MPI_Abort(PETSC_COMM_WORLD, 1);
+  return MPI_Abort(MPI_COMM_WORLD, 1);
 }
 
 }  // namespace
@@ -27,9 +27,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // mpirun's death, by which an interrupted run ends the ranks
-  if (PetscInitializeNoArguments() != 0) return 1;
-  PetscPushErrorHandler(PetscReturnErrorHandler, nullptr);
-  PetscPopSignalHandler();
+  MPI_Init(&argc, &argv);
   try {
     thinwall::distributed::carry_out_orders(argv[1]);
   } catch (const thinwall::core::DataError& error) {
@@ -37,5 +35,6 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     return end_all("failed", error);
   }
-  return PetscFinalize() == 0 ? 0 : 1;
+  MPI_Finalize();
+  return 0;
 }

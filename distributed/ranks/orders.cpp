@@ -1,6 +1,7 @@
 #include "distributed/ranks/orders.hpp"
 
 #include <fmt/format.h>
+#include <mpi.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -23,14 +24,14 @@ namespace fs = std::filesystem;
 
 bool first_rank() {
   int number = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &number);
+  MPI_Comm_rank(MPI_COMM_WORLD, &number);
   return number == 0;
 }
 
 /// Broadcasts from the first rank; the others sleep until it comes, where MPI_Bcast would poll.
 void broadcast(void* data, int bytes) {
   MPI_Request request = MPI_REQUEST_NULL;
-  MPI_Ibcast(data, bytes, MPI_BYTE, 0, PETSC_COMM_WORLD, &request);
+  MPI_Ibcast(data, bytes, MPI_BYTE, 0, MPI_COMM_WORLD, &request);
   for (int came = 0; came == 0;) {
     MPI_Test(&request, &came, MPI_STATUS_IGNORE);
     if (came == 0) std::this_thread::sleep_for(std::chrono::microseconds(200));
@@ -95,10 +96,10 @@ void carry_out(const std::string& order, std::istream& words, const fs::path& fo
   words >> number >> count;
   if (order == "hello") {
     int size = 0;
-    MPI_Comm_size(PETSC_COMM_WORLD, &size);
+    MPI_Comm_size(MPI_COMM_WORLD, &size);
     answer(fmt::format("ready {} {}", size, library()));
   } else if (order == "analyse") {
-    factors[number] = std::make_unique<RankFactor>(folder / "matrix");
+    factors[number] = std::make_unique<RankFactor>(folder / "matrix", folder / "order");
     answer(text_of(factors.at(number)->analyse()));
   } else if (order == "factorise") {
     const Outcome outcome = factors.at(number)->factorise();
@@ -107,7 +108,6 @@ void carry_out(const std::string& order, std::istream& words, const fs::path& fo
     answer(failed ? "failed " + *failed : fmt::format("factorised {} {}", outcome.seconds, outcome.peak_bytes));
   } else if (order == "solve") {
     factors.at(number)->solve(folder / "columns", count);
-    MPI_Barrier(PETSC_COMM_WORLD);  // all have written
     answer("solved");
   } else if (order == "drop") {
     factors.erase(number);

@@ -5,11 +5,11 @@
 
 namespace thinwall::distributed {
 
-/// Carries out the lines of the first rank's input until "quit" or its end, on all ranks of PETSC_COMM_WORLD; the first
+/// Carries out the lines of the first rank's input until "quit" or its end, on all ranks of MPI_COMM_WORLD; the first
 /// rank prints the answers, each a line that begins with "=". Between orders the ranks sleep.
 ///
 ///     hello           = ready RANKS LIBRARY
-///     analyse N       = analysed BYTES_OF_MACHINE FREE LEAST MOST SECONDS ENTRIES FLOPS ANALYSIS_SECONDS   of `matrix`
+///     analyse N       = analysed BYTES_OF_MACHINE FREE LEAST MOST SECONDS ENTRIES FLOPS ANALYSIS_SECONDS   of `matrix`, `order`
 ///     factorise N     = factorised SECONDS PEAK_BYTES
 ///     solve N COUNT   = solved                                                                          in `columns`
 ///     drop N          = dropped

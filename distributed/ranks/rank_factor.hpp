@@ -1,10 +1,12 @@
 #pragma once
-// The factor of a symmetric positive definite matrix on all ranks, by PETSc and MUMPS.
+// The factor of a symmetric positive definite matrix on all ranks, by MUMPS.
 
-#include <petscmat.h>
+#include <dmumps_c.h>
+#include <mpi.h>
 
 #include <cstdint>
 #include <filesystem>
+#include <vector>
 
 namespace thinwall::distributed {
 
@@ -19,8 +21,8 @@ struct Forecast {
   double analysis_s = 0.0;
 };
 
-/// What the numeric phase has come to. `negative_pivots` is INFOG(12), `error` INFOG(1), a negative number of MUMPS'
-/// manual, section 8.
+/// What the numeric phase has come to. `negative_pivots` is INFOG(12); `error` and `detail` are INFOG(1) and (2), of
+/// which a negative error is explained in section 8 of MUMPS' manual.
 struct Outcome {
   double seconds = 0.0;
   double peak_bytes = 0.0;  ///< the largest of all ranks
@@ -28,27 +30,30 @@ struct Outcome {
   int error = 0, detail = 0;
 };
 
-/// A matrix and its factor; each rank holds its share of both. All functions are called by all ranks together. Errors
-/// of PETSc are thrown as std::runtime_error, those of files as core::DataError.
+/// A matrix and its factor; each rank of MPI_COMM_WORLD holds its share of both. All functions are called by all ranks
+/// together.
 class RankFactor {
  public:
-  /// Reads the rank's rows of a matrix (matrix_file.hpp).
-  explicit RankFactor(const std::filesystem::path& matrix);
+  /// Reads the rank's rows of a matrix (matrix_file.hpp); the first rank reads the order, for each row its place in the
+  /// elimination, from 1 on, 32 bits each. Throws DataError for files that cannot be read.
+  RankFactor(const std::filesystem::path& matrix, const std::filesystem::path& order);
   ~RankFactor();
   RankFactor(const RankFactor&) = delete;
   RankFactor& operator=(const RankFactor&) = delete;
 
-  /// Orders the matrix by METIS and counts the factor.
+  /// Counts the factor. Throws NumericalError with MUMPS' code if the analysis fails.
   [[nodiscard]] Forecast analyse();
   /// The numeric phase.
   [[nodiscard]] Outcome factorise();
-  /// Replaces B (n × columns, by columns) in a file by A⁻¹ B; each rank reads and writes its rows.
+  /// Replaces B (n × count, by columns) in a file by A⁻¹ B; the first rank reads and writes it. Throws DataError, and
+  /// NumericalError with MUMPS' code.
   void solve(const std::filesystem::path& columns, int count);
 
  private:
-  Mat A_ = nullptr, F_ = nullptr;
-  MatFactorInfo info_{};
-  std::int64_t rows_ = 0, first_ = 0, last_ = 0;
+  void call(int job);
+  DMUMPS_STRUC_C mumps_{};
+  std::vector<int> row_, column_, order_;
+  std::vector<double> value_;
 };
 
 }  // namespace thinwall::distributed

@@ -112,7 +112,7 @@ class Ranks(unittest.TestCase):
     def test_what_is_missing_is_said_with_what_to_install(self):
         line = self.error_of(run(self.folder / "out", THINWALL_MPI="/nowhere/thinwall-mpi"), 2)
         self.assertIn("thinwall-mpi", line)
-        self.assertIn("libpetsc-real-dev", line)
+        self.assertIn("libmumps-dev", line)
         line = self.error_of(run(self.folder / "out", THINWALL_MPIRUN="no-such-mpirun --flag"), 2)
         self.assertIn("no-such-mpirun", line)
         self.assertIn("openmpi-bin", line)

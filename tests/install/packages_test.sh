@@ -16,7 +16,7 @@ trap 'rm -rf "$tree"' EXIT
 
 interface=$(sed -n 's/^project(thinwall VERSION \([0-9]*\.[0-9]*\).*/\1/p' "$here/../../CMakeLists.txt")
 library=libthinwall$interface
-mpi=$(find "$build/app" -name thinwall-mpi)  # none where PETSc is not installed
+mpi=$(find "$build/app" -name thinwall-mpi)  # none where MUMPS is not installed
 names=(libthinwall-dev "$library" ${python:+python3-thinwall} thinwall ${mpi:+thinwall-mpi})
 expect_equal "the packages" "${names[*]}" \
   "$(for deb in "$debs"/*.deb; do dpkg-deb -f "$deb" Package; done | LC_ALL=C sort | xargs)"
@@ -47,8 +47,8 @@ expect_equal "the library exists for its soname" "libthinwall.so.$interface" \
     awk '$1 == "SONAME" { print $2 }')"
 
 if [[ -n $mpi ]]; then
-  expect_contains "the ranks' libraries" "libpetsc-real" "$(depends thinwall-mpi)"
-  expect_equal "the program needs no MPI" "" "$(depends thinwall "$library" | tr ',' '\n' | grep -e mpi -e petsc || true)"
+  expect_contains "the ranks' libraries" "libmumps" "$(depends thinwall-mpi)"
+  expect_equal "the program needs no MPI" "" "$(depends thinwall "$library" | tr ',' '\n' | grep -e mpi -e mumps || true)"
 fi
 
 # --- the words of the program, and whose they are that its page holds
