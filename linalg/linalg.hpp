@@ -14,6 +14,7 @@
 #include "linalg/inverse_iteration.hpp"
 #include "linalg/library_threads.hpp"
 #include "linalg/ordering.hpp"
+#include "linalg/rayleigh_quotients.hpp"
 #include "linalg/sparse.hpp"
 #include "linalg/sparse_cholesky.hpp"
 #include "linalg/sparse_indefinite.hpp"
