@@ -1,5 +1,5 @@
 // From a mesh file to natural modes, stage by stage, beside the peers (bench/run fem). Steel, SI.
-//   fem_modes FILE.inp [--fixed SET] [--modes N] [--threads N] [--ranks N] [--write-petsc FOLDER | --craig-bampton N]
+//   fem_modes FILE.inp [--fixed SET] [--modes N] [--threads N] [--write-petsc FOLDER | --craig-bampton N]
 // prints one JSON object. With --write-petsc it writes the assembled K and M of the free DOFs for bench/slepc_modes and
 // stops; with --craig-bampton it times the reduction to N interface DOFs and as many modes as told beside the modes.
 
@@ -17,7 +17,6 @@
 #include "bench/stages.hpp"
 #include "core/memory.hpp"
 #include "core/parallel.hpp"
-#include "distributed/rank_team.hpp"
 #include "fem/assembly.hpp"
 #include "io/mesh/inp.hpp"
 #include "linalg/eigenpairs.hpp"
@@ -35,7 +34,6 @@ struct Options {
   std::string fixed = "FIXED";
   int modes = 10;
   int threads = 2;
-  int ranks = 1;  ///< of MPI that factorise, each with its share of the threads
   std::string petsc_folder;
   int interface_dofs = 0;
 };

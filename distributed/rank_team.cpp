@@ -88,6 +88,10 @@ std::string told_by(const fs::path& log) {
   return told;
 }
 
+std::string ranks_text(int count) {
+  return std::to_string(count) + (count == 1 ? " rank" : " ranks");
+}
+
 std::string memory_text(double bytes) {
   return core::readable_text(bytes, core::kind::memory);
 }
@@ -116,6 +120,7 @@ struct RankTeam::Impl {
   std::unique_ptr<ChildProcess> ranks;
   std::mutex busy;  // one order at a time
   int factors = 0;  // made so far
+  RankCost latest{};
 
   [[nodiscard]] fs::path matrix() const { return scratch / "matrix"; }
   [[nodiscard]] fs::path order() const { return scratch / "order"; }
@@ -168,9 +173,9 @@ struct RankTeam::Impl {
 void RankTeam::Impl::start() {
   const fs::path program = rank_program();
   if (program.empty()) {
-    throw core::UsageError("--ranks needs " + std::string(program_name) +
+    throw core::UsageError("--ranks and --low-memory need " + std::string(program_name) +
                            ", which is not there: install the package thinwall-mpi, or libmumps-dev and build "
-                           "again; --ranks 1 needs nothing");
+                           "again; without them nothing is needed");
   }
   std::vector<std::string> words = launcher(options.ranks);
   if (found_program(words.front()).empty()) {
@@ -190,7 +195,7 @@ void RankTeam::Impl::start() {
                            std::to_string(size) + " rank each: it is not the one of" + library +
                            ", with which thinwall-mpi was built; name that in THINWALL_MPIRUN");
   }
-  core::inform(fmt::format("{} ranks of {} thread{} each,{}", size, options.threads, options.threads == 1 ? "" : "s",
+  core::inform(fmt::format("{} of {} thread{} each,{}", ranks_text(size), options.threads, options.threads == 1 ? "" : "s",
                            library));
 }
 
@@ -225,7 +230,8 @@ std::vector<int> elimination_places(const linalg::SparseMatrix& A) {
 }
 
 /// Throws MemoryLimitError where the ranks of a machine would take more than it has.
-void require_memory(const RankForecast& told, int ranks, double limit_bytes, Eigen::Index rows) {
+void require_memory(const RankForecast& told, const TeamOptions& options, double limit_bytes, Eigen::Index rows) {
+  const int ranks = options.ranks;
   double limit = told.free_bytes;
   for (const double other : {limit_bytes, core::memory_left_bytes()}) {  // 0 where there is no limit
     if (other > 0.0) limit = std::min(limit, other);
@@ -234,9 +240,21 @@ void require_memory(const RankForecast& told, int ranks, double limit_bytes, Eig
   const int enough = static_cast<int>(std::ceil(ranks * told.machine_bytes / limit));
   throw linalg::MemoryLimitError(
       fmt::format("the factor of a matrix of {} rows takes {} on the machine of {} ranks, more than the {} that it has: "
-                  "take {} ranks on as many more machines",
-                  rows, memory_text(told.machine_bytes), ranks, memory_text(limit), std::max(enough, ranks + 1)),
+                  "take {} ranks on as many more machines{}",
+                  rows, memory_text(told.machine_bytes), ranks, memory_text(limit), std::max(enough, ranks + 1),
+                  options.on_disk ? "" : ", or --low-memory, which keeps the factor on disk"),
       told.machine_bytes, limit);
+}
+
+/// Throws MemoryLimitError where the disk of a folder has less free than the factor takes.
+void require_space(double bytes, const fs::path& folder) {
+  const auto free = static_cast<double>(fs::space(folder).available);
+  if (bytes <= free) return;
+  throw linalg::MemoryLimitError(
+      fmt::format("--low-memory: the factor takes {} on the disk of {}, which has {} free: set TMPDIR to a folder with "
+                  "more",
+                  memory_text(bytes), folder.parent_path().string(), memory_text(free)),
+      bytes, free);
 }
 
 }  // namespace
@@ -248,24 +266,27 @@ linalg::FactorStatistics RankTeam::Impl::factorise(int number, const linalg::Spa
   const double ordering_s = std::chrono::duration<double>(Clock::now() - start).count();
   write_upper_rows(A, matrix());
   OpenFile(order(), Access::write).write(places.data(), sizeof(int) * places.size(), 0);
-  std::istringstream words = ask("analyse " + std::to_string(number), "analysed");
+  std::istringstream words = ask("analyse " + std::to_string(number) + (options.on_disk ? " 1" : " 0"), "analysed");
   const RankForecast told = forecast_of(words);
   fs::remove(matrix());
-  core::inform(fmt::format("{} rows on {} ranks: {} to {} a rank, about {} for the factor", A.rows(), options.ranks,
+  core::inform(fmt::format("{} rows on {}: {} to {} a rank{}, about {} for the factor", A.rows(), ranks_text(options.ranks),
                            memory_text(told.least_bytes), memory_text(told.most_bytes),
+                           options.on_disk ? ", " + memory_text(told.statistics.bytes) + " on disk" : "",
                            core::readable_text(told.seconds, core::kind::time)));
   try {
-    require_memory(told, options.ranks, limits.memory_limit_bytes, A.rows());
+    require_memory(told, options, limits.memory_limit_bytes, A.rows());
+    if (options.on_disk) require_space(told.statistics.bytes, scratch);
   } catch (const linalg::MemoryLimitError&) {
     (void)ask("drop " + std::to_string(number), "dropped");
     throw;
   }
-  double peak_bytes = 0.0;
   linalg::FactorStatistics statistics = told.statistics;
   statistics.seconds_ordering = ordering_s;
-  ask("factorise " + std::to_string(number), "factorised") >> statistics.seconds_numeric >> peak_bytes;
-  core::note(fmt::format("the factor took {} s and at most {} a rank", statistics.seconds_numeric,
-                         memory_text(peak_bytes)));
+  latest = {told.most_bytes, 0.0, told.seconds, 0.0};
+  ask("factorise " + std::to_string(number), "factorised") >> latest.factor_s >> latest.peak_bytes;
+  statistics.seconds_numeric = latest.factor_s;
+  core::note(fmt::format("the factor took {:.3g} s and at most {} a rank", statistics.seconds_numeric,
+                         memory_text(latest.peak_bytes)));
   return statistics;
 }
 
@@ -341,6 +362,10 @@ std::unique_ptr<linalg::ExternalFactor> RankTeam::factorise(const linalg::Sparse
         (void)team.ask("drop " + std::to_string(number), "dropped");
       },
       statistics);
+}
+
+const RankCost& RankTeam::latest() const {
+  return impl_->latest;
 }
 
 DistributedFactors::DistributedFactors(const TeamOptions& options)

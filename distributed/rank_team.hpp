@@ -20,7 +20,14 @@ namespace thinwall::distributed {
 struct TeamOptions {
   int ranks = 2;
   int threads = 1;          ///< of each rank
+  bool on_disk = false;   ///< the factor goes to files in TMPDIR, and a rank holds its largest fronts only
   int least_rows = 5000;  ///< smaller matrices stay with this process, which is quicker for them
+};
+
+/// The largest share of a factor that a rank has, before and after.
+struct RankCost {
+  double forecast_bytes = 0.0, peak_bytes = 0.0;  ///< memory of the whole rank, which has other factors, too
+  double forecast_s = 0.0, factor_s = 0.0;        ///< of the numeric phase
 };
 
 /// Processes of one MPI communicator, thinwall-mpi, started by mpirun (or what the environment variable THINWALL_MPIRUN
@@ -44,6 +51,9 @@ class RankTeam {
   [[nodiscard]] std::unique_ptr<linalg::ExternalFactor> factorise(const linalg::SparseMatrix& A,
                                                                   const linalg::FactorOptions& options);
 
+  /// The cost of the factor that was made last.
+  [[nodiscard]] const RankCost& latest() const;
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
@@ -56,6 +66,9 @@ class DistributedFactors {
   ~DistributedFactors();
   DistributedFactors(const DistributedFactors&) = delete;
   DistributedFactors& operator=(const DistributedFactors&) = delete;
+
+  /// The cost of the factor that was made last.
+  [[nodiscard]] const RankCost& latest() const { return team_.latest(); }
 
  private:
   RankTeam team_;

@@ -100,7 +100,7 @@ void carry_out(const std::string& order, std::istream& words, const fs::path& fo
     answer(fmt::format("ready {} {}", size, library()));
   } else if (order == "analyse") {
     factors[number] = std::make_unique<RankFactor>(folder / "matrix", folder / "order");
-    answer(text_of(factors.at(number)->analyse()));
+    answer(text_of(factors.at(number)->analyse(count != 0 ? folder : fs::path())));
   } else if (order == "factorise") {
     const Outcome outcome = factors.at(number)->factorise();
     const std::optional<std::string> failed = failure(outcome);

@@ -1,6 +1,7 @@
 #include "distributed/ranks/rank_factor.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <fstream>
 #include <string>
 
@@ -137,7 +138,7 @@ void RankFactor::call(int job) {
                              ") of its manual: take more ranks or more memory");
 }
 
-Forecast RankFactor::analyse() {
+Forecast RankFactor::analyse(const fs::path& on_disk) {
   const double start = MPI_Wtime();
   const auto option = [this](int number) -> MUMPS_INT& { return mumps_.icntl[number - 1]; };
   for (const int output : {1, 2, 3, 4}) option(output) = 0;
@@ -145,9 +146,11 @@ Forecast RankFactor::analyse() {
   option(14) = spare_percent;
   option(18) = 3;  // each rank has entries of its own
   option(28) = 1;  // the first rank analyses
+  option(22) = on_disk.empty() ? 0 : 1;
+  std::strncpy(mumps_.ooc_tmpdir, on_disk.c_str(), sizeof mumps_.ooc_tmpdir - 1);
   call(analysis);
   Forecast forecast;
-  const double bytes = 1e6 * mumps_.info[14] / (1.0 + 0.01 * spare_percent);  // the spare space is never touched
+  const double bytes = 1e6 * mumps_.info[on_disk.empty() ? 14 : 16] / (1.0 + 0.01 * spare_percent);  // the spare space is never touched
   compare_machines(bytes, forecast);
   forecast.least_bytes = reduced(core::held_memory_bytes() + bytes, MPI_MIN);
   forecast.most_bytes = reduced(core::held_memory_bytes() + bytes, MPI_MAX);

@@ -85,6 +85,17 @@ class Ranks(unittest.TestCase):
                      if " against " in line and not line.startswith(("frf/", "lobes/part_crossings.csv"))]
         self.assertEqual(differing, [], compared.stdout)
 
+    def test_a_factor_on_disk_gives_the_same_frequencies(self):
+        for name, words_of_run in (("memory", []), ("disk", ["--low-memory"])):
+            process = subprocess.run([*words(self.folder / name, SMALL, 1), *words_of_run], capture_output=True, text=True,
+                                     timeout=300, check=False)
+            self.assertIn(process.returncode, (0, 6), process.stderr)
+            self.assertEqual("on disk" in process.stderr, name == "disk", process.stderr)
+        tables = [(self.folder / name / "modes" / "modes.csv").read_text(encoding="utf-8").splitlines()
+                  for name in ("memory", "disk")]
+        for one, other in zip(*([line.split(",") for line in table[1:]] for table in tables)):
+            self.assertAlmostEqual(float(one[1]) / float(other[1]), 1.0, delta=1e-10)
+
     def test_a_rank_that_dies_is_one_line(self):
         process = self.begun()
         ranks = rank_processes(process.pid)
