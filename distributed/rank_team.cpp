@@ -77,15 +77,27 @@ std::map<std::string, std::string> environment(int threads) {
   return result;
 }
 
-/// The line of the launcher's errors that tells most: that of a rank's end, else the last that has letters.
+/// The line of the launcher's errors that tells most: that of a rank's end, else the first that has letters.
 std::string told_by(const fs::path& log) {
   std::ifstream file(log);
   std::string told;
   for (std::string line; std::getline(file, line);) {
     if (line.find("exited on signal") != std::string::npos) return line;
-    if (std::ranges::any_of(line, [](unsigned char c) { return std::isalpha(c) != 0; })) told = line;
+    const bool has_letters = std::ranges::any_of(line, [](unsigned char c) { return std::isalpha(c) != 0; });
+    if (told.empty() && has_letters) told = line;
   }
   return told;
+}
+
+/// A name for the folder of the files that program and ranks share. Throws DataError without a folder to make it in.
+fs::path scratch_name() {
+  std::error_code failed;
+  const fs::path folder = fs::temp_directory_path(failed);
+  if (failed || ::access(folder.c_str(), W_OK | X_OK) != 0) {
+    throw core::DataError("--ranks: \"" + variable("TMPDIR", "/tmp") +
+                          "\" is no folder that can be written: set TMPDIR to one with space that all ranks share");
+  }
+  return core::partial_path(folder / "thinwall-ranks");
 }
 
 std::string ranks_text(int count) {
@@ -118,7 +130,8 @@ struct RankTeam::Impl {
   TeamOptions options;
   fs::path scratch;
   std::unique_ptr<ChildProcess> ranks;
-  std::mutex busy;  // one order at a time
+  bool begun = false;  // they have answered
+  std::mutex busy;     // one order at a time
   int factors = 0;  // made so far
   RankCost latest{};
 
@@ -127,10 +140,15 @@ struct RankTeam::Impl {
   [[nodiscard]] fs::path columns() const { return scratch / "columns"; }
   [[nodiscard]] fs::path log() const { return scratch / "errors"; }
 
-  /// The error of a team that has ended.
+  /// The error of a team that has ended, or has never begun.
   [[noreturn]] void ended() const {
     ranks->ends_within(0.5);  // its last words
     const std::string told = told_by(log());
+    if (!begun) {
+      throw core::UsageError("--ranks: the command \"" + launcher(options.ranks).front() +
+                             "\" did not start the ranks" + (told.empty() ? "" : ": " + told) +
+                             "; name another with its options in THINWALL_MPIRUN");
+    }
     throw core::NumericalError("the ranks of --ranks " + std::to_string(options.ranks) + " have ended" +
                                (told.empty() ? "" : ": " + told) +
                                "; run again: with more memory or more ranks if one ran out of it");
@@ -186,6 +204,7 @@ void RankTeam::Impl::start() {
   words.insert(words.end(), {program.string(), scratch.string()});
   ranks = std::make_unique<ChildProcess>(words, environment(options.threads), log());
   std::istringstream ready = ask("hello", "ready");
+  begun = true;
   int size = 0;
   std::string library;
   ready >> size;
@@ -303,7 +322,7 @@ Eigen::MatrixXd RankTeam::Impl::solve(int number, const Eigen::Ref<const Eigen::
 
 RankTeam::RankTeam(const TeamOptions& options) : impl_(std::make_unique<Impl>()) {
   impl_->options = options;
-  impl_->scratch = core::partial_path(fs::temp_directory_path() / "thinwall-ranks");
+  impl_->scratch = scratch_name();
   try {
     impl_->start();
   } catch (...) {

@@ -127,6 +127,10 @@ class Ranks(unittest.TestCase):
         line = self.error_of(run(self.folder / "out", THINWALL_MPIRUN="no-such-mpirun --flag"), 2)
         self.assertIn("no-such-mpirun", line)
         self.assertIn("openmpi-bin", line)
+        line = self.error_of(run(self.folder / "out", THINWALL_MPIRUN="mpirun --no-such-flag"), 2)
+        self.assertIn("did not start the ranks", line)
+        line = self.error_of(run(self.folder / "out", TMPDIR="/nowhere"), 4)
+        self.assertIn("/nowhere", line)
 
     def test_an_mpirun_of_another_kind_is_told(self):
         other = self.folder / "mpirun-of-another-kind"
