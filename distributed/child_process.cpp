@@ -25,6 +25,7 @@ constexpr int poll_ms = 50;
 
 std::vector<char*> pointers(std::vector<std::string>& texts) {
   std::vector<char*> list;
+  list.reserve(texts.size() + 1);
   for (std::string& text : texts) list.push_back(text.data());
   list.push_back(nullptr);
   return list;
@@ -37,7 +38,7 @@ std::vector<std::string> environment_with(const std::map<std::string, std::strin
     const std::string text = *entry;
     if (!changed.contains(text.substr(0, text.find('=')))) all.push_back(text);
   }
-  for (const auto& [name, value] : changed) all.push_back(name + "=" + value);
+  for (const auto& [name, value] : changed) all.push_back(std::string(name).append("=").append(value));
   return all;
 }
 

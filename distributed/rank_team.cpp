@@ -46,7 +46,7 @@ fs::path found_program(const std::string& name) {
   if (name.find('/') != std::string::npos) return ::access(name.c_str(), X_OK) == 0 ? fs::path(name) : fs::path();
   std::istringstream folders(variable("PATH", "/usr/bin:/bin"));
   for (std::string folder; std::getline(folders, folder, ':');) {
-    const fs::path file = fs::path(folder) / name;
+    fs::path file = fs::path(folder) / name;
     if (::access(file.c_str(), X_OK) == 0) return file;
   }
   return {};
@@ -132,7 +132,8 @@ struct RankTeam::Impl {
   std::unique_ptr<ChildProcess> ranks;
   bool begun = false;  // they have answered
   std::mutex busy;     // one order at a time
-  int factors = 0;  // made so far
+  int factors = 0;     // made so far
+  int unheard = 0;     // orders whose answers are to come
   RankCost latest{};
 
   [[nodiscard]] fs::path matrix() const { return scratch / "matrix"; }
@@ -164,28 +165,47 @@ struct RankTeam::Impl {
     }
   }
 
-  /// The answer to an order: the words behind "=", of which the first is the expected one. Other lines are what
-  /// libraries print.
-  std::istringstream ask(const std::string& order, const std::string& expected) {
-    if (!ranks) throw core::NumericalError("the ranks have ended after an interruption: start them anew");
-    ranks->say(order);
+  /// Gives an order without waiting for its answer.
+  void tell(const std::string& words) {
+    if (!ranks) return;
+    ranks->say(words);
+    ++unheard;
+  }
+
+  /// The next answer, without its "=". Other lines are what libraries print.
+  std::string next_answer() {
     while (true) {
       const std::optional<std::string> line = next_line();
       if (!line) ended();
       if (!line->starts_with("= ")) continue;
-      std::istringstream words(line->substr(2));
-      std::string first, rest;
-      words >> first;
-      if (first == expected) return words;
-      std::getline(words, rest);
-      if (first == "data_error") throw core::DataError(rest.substr(1));
-      throw core::NumericalError("the ranks: " + rest.substr(rest.empty() ? 0 : 1));
+      --unheard;
+      return line->substr(2);
     }
   }
 
+  /// Hears the answers that are to come, so that the ranks touch no file any more. There are some where a TimeLimit has
+  /// ended the wait for one.
+  void settle() {
+    if (!ranks) throw core::NumericalError("the ranks have ended after an interruption: start them anew");
+    while (unheard > 0) (void)next_answer();
+  }
+
+  /// The answer to an order: the words behind the first, which is the expected one.
+  std::istringstream ask(const std::string& words, const std::string& expected) {
+    settle();
+    tell(words);
+    std::istringstream answer(next_answer());
+    std::string first, rest;
+    answer >> first;
+    if (first == expected) return answer;
+    std::getline(answer >> std::ws, rest);
+    if (first == "data_error") throw core::DataError(rest);
+    throw core::NumericalError("the ranks: " + rest);
+  }
+
   void start();
-  linalg::FactorStatistics factorise(int number, const linalg::SparseMatrix& A, const linalg::FactorOptions& limits);
-  Eigen::MatrixXd solve(int number, const Eigen::Ref<const Eigen::MatrixXd>& B);
+  linalg::FactorStatistics factorise(const std::string& number, const linalg::SparseMatrix& A, const linalg::FactorOptions& limits);
+  Eigen::MatrixXd solve(const std::string& number, const Eigen::Ref<const Eigen::MatrixXd>& B);
 };
 
 void RankTeam::Impl::start() {
@@ -278,44 +298,41 @@ void require_space(double bytes, const fs::path& folder) {
 
 }  // namespace
 
-linalg::FactorStatistics RankTeam::Impl::factorise(int number, const linalg::SparseMatrix& A,
+linalg::FactorStatistics RankTeam::Impl::factorise(const std::string& number, const linalg::SparseMatrix& A,
                                                    const linalg::FactorOptions& limits) {
   const auto start = Clock::now();
   const std::vector<int> places = elimination_places(A);
   const double ordering_s = std::chrono::duration<double>(Clock::now() - start).count();
+  settle();
   write_upper_rows(A, matrix());
   OpenFile(order(), Access::write).write(places.data(), sizeof(int) * places.size(), 0);
-  std::istringstream words = ask("analyse " + std::to_string(number) + (options.on_disk ? " 1" : " 0"), "analysed");
+  std::istringstream words = ask("analyse " + number + (options.on_disk ? " 1" : " 0"), "analysed");
   const RankForecast told = forecast_of(words);
   fs::remove(matrix());
   core::inform(fmt::format("{} rows on {}: {} to {} a rank{}, about {} for the factor", A.rows(), ranks_text(options.ranks),
                            memory_text(told.least_bytes), memory_text(told.most_bytes),
                            options.on_disk ? ", " + memory_text(told.statistics.bytes) + " on disk" : "",
                            core::readable_text(told.seconds, core::kind::time)));
-  try {
-    require_memory(told, options, limits.memory_limit_bytes, A.rows());
-    if (options.on_disk) require_space(told.statistics.bytes, scratch);
-  } catch (const linalg::MemoryLimitError&) {
-    (void)ask("drop " + std::to_string(number), "dropped");
-    throw;
-  }
+  require_memory(told, options, limits.memory_limit_bytes, A.rows());
+  if (options.on_disk) require_space(told.statistics.bytes, scratch);
   linalg::FactorStatistics statistics = told.statistics;
   statistics.seconds_ordering = ordering_s;
   latest = {told.most_bytes, 0.0, told.seconds, 0.0};
-  ask("factorise " + std::to_string(number), "factorised") >> latest.factor_s >> latest.peak_bytes;
+  ask("factorise " + number, "factorised") >> latest.factor_s >> latest.peak_bytes;
   statistics.seconds_numeric = latest.factor_s;
   core::note(fmt::format("the factor took {:.3g} s and at most {} a rank", statistics.seconds_numeric,
                          memory_text(latest.peak_bytes)));
   return statistics;
 }
 
-Eigen::MatrixXd RankTeam::Impl::solve(int number, const Eigen::Ref<const Eigen::MatrixXd>& B) {
+Eigen::MatrixXd RankTeam::Impl::solve(const std::string& number, const Eigen::Ref<const Eigen::MatrixXd>& B) {
   const std::lock_guard lock(busy);
   Eigen::MatrixXd X = B;
   const std::size_t bytes = sizeof(double) * static_cast<std::size_t>(X.size());
   if (bytes == 0) return X;
+  settle();
   OpenFile(columns(), Access::write).write(X.data(), bytes, 0);
-  (void)ask("solve " + std::to_string(number) + " " + std::to_string(X.cols()), "solved");
+  (void)ask("solve " + number + " " + std::to_string(X.cols()), "solved");
   OpenFile(columns(), Access::read).read(X.data(), bytes, 0);
   return X;
 }
@@ -348,12 +365,7 @@ class FactorOnRanks : public linalg::ExternalFactor {
   using Solve = std::function<Eigen::MatrixXd(const Eigen::Ref<const Eigen::MatrixXd>&)>;
   FactorOnRanks(Solve solve, std::function<void()> drop, const linalg::FactorStatistics& statistics)
       : solve_(std::move(solve)), drop_(std::move(drop)), statistics_(statistics) {}
-  ~FactorOnRanks() override {
-    try {
-      drop_();
-    } catch (const core::Error&) {  // the ranks have ended, and so has the factor
-    }
-  }
+  ~FactorOnRanks() override { drop_(); }
   FactorOnRanks(const FactorOnRanks&) = delete;
   FactorOnRanks& operator=(const FactorOnRanks&) = delete;
 
@@ -372,13 +384,19 @@ std::unique_ptr<linalg::ExternalFactor> RankTeam::factorise(const linalg::Sparse
                                                             const linalg::FactorOptions& options) {
   Impl& team = *impl_;
   const std::lock_guard lock(team.busy);
-  const int number = ++team.factors;
-  const linalg::FactorStatistics statistics = team.factorise(number, A, options);
+  const std::string number = std::to_string(++team.factors);
+  linalg::FactorStatistics statistics;
+  try {
+    statistics = team.factorise(number, A, options);
+  } catch (...) {  // a TimeLimit throws what is no Error
+    team.tell("drop " + number);
+    throw;
+  }
   return std::make_unique<FactorOnRanks>(
       [&team, number](const Eigen::Ref<const Eigen::MatrixXd>& B) { return team.solve(number, B); },
       [&team, number] {
         const std::lock_guard dropping(team.busy);
-        (void)team.ask("drop " + std::to_string(number), "dropped");
+        team.tell("drop " + number);
       },
       statistics);
 }
