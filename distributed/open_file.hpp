@@ -10,6 +10,7 @@ namespace thinwall::distributed {
 /// process wrote, on a network file system too.
 class OpenFile {
  public:
+  /// The use that is made of the file.
   enum class Access { read, write };
 
   /// Opens the file; for writing it is made if it is not there. Throws DataError.
