@@ -50,11 +50,7 @@ LearnedParameterSummary parameter_summary(const learning::LearnedParameter& p, c
 
 milling::Score score_after(const std::vector<learning::LearnedCut>& cuts) {
   milling::Score score;
-  for (const learning::LearnedCut& cut : cuts) {
-    if (cut.cut.outcome == milling::CutOutcome::marginal) continue;
-    ++score.of;
-    score.right += (cut.chatter_probability > 0.5) == (cut.cut.outcome == milling::CutOutcome::chatter) ? 1 : 0;
-  }
+  for (const learning::LearnedCut& cut : cuts) milling::count(score, cut.cut.outcome, cut.chatter_probability > 0.5);
   return score;
 }
 

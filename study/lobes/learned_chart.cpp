@@ -49,42 +49,18 @@ double reached_by(const std::vector<double>& ascending, double share) {
 }
 
 std::vector<LearnedChart::Row> limits_of_draws(const setup::LobesOptions& lobes, const learning::Calibration& learned,
-                                               milling::StabilityOptions options) {
+                                               const milling::StabilityOptions& options) {
   const std::vector<double> speeds = milling::spindle_speeds(lobes.from_rpm, lobes.to_rpm, limit_speeds);
   const std::vector<milling::Cut> cuts = learning::cuts_of_draws(learned, limit_draws);
-  std::vector<std::optional<LearnedChart::Row>> rows(speeds.size());
+  std::vector<LimitsAtSpeed> limits(speeds.size());
   core::Progress progress("limits of the draws", speeds.size());
   core::parallel_for(speeds.size(), [&](std::size_t i) {
-    std::vector<double> limits;
-    limits.reserve(cuts.size());
-    for (const milling::Cut& cut : cuts)
-      if (const auto limit = learning::answered_limit_m(cut, speeds[i], options)) limits.push_back(*limit);
-    std::ranges::sort(limits);
-    const std::optional<double> nominal = learning::answered_limit_m(learned.model.nominal, speeds[i], options);
-    if (nominal && 2 * limits.size() >= cuts.size())
-      rows[i] = LearnedChart::Row{speeds[i], *nominal, reached_by(limits, 0.5), reached_by(limits, 0.9),
-                                  reached_by(limits, 0.95)};
+    const auto limit_of = [&](const milling::Cut& cut) { return learning::limit_at(cut, speeds[i], options); };
+    limits[i] = {speeds[i], limit_of(learned.model.nominal), {}};
+    for (const milling::Cut& cut : cuts) limits[i].of_draws.push_back(limit_of(cut));
     progress.step();
   });
-  std::vector<LearnedChart::Row> answered;
-  answered.reserve(rows.size());
-  for (const auto& row : rows)
-    if (row) answered.push_back(*row);
-  if (answered.size() < rows.size())
-    core::warn(fmt::format("calibration: of {} speeds {} have no learned limit, for its search missed a crossing",
-                           rows.size(), rows.size() - answered.size()));
-  return answered;
-}
-
-milling::Score score_of(const learning::CutModel& model, const learning::PredictedCuts& predicted) {
-  milling::Score score;
-  for (std::size_t i = 0; i < model.cuts.size(); ++i) {
-    if (model.cuts[i].outcome == milling::CutOutcome::marginal) continue;
-    ++score.of;
-    const bool chatters = predicted.margin(static_cast<Eigen::Index>(i)) > 0.0;
-    score.right += chatters == (model.cuts[i].outcome == milling::CutOutcome::chatter) ? 1 : 0;
-  }
-  return score;
+  return answered_rows(limits);
 }
 
 /// The next cut; none, with a warning, where every one is beyond the machine or too likely to chatter.
@@ -111,6 +87,29 @@ void tell_of_doubt(const learning::Calibration& learned) {
 }
 
 }  // namespace
+
+std::vector<LearnedChart::Row> answered_rows(const std::vector<LimitsAtSpeed>& limits) {
+  std::vector<LearnedChart::Row> rows;
+  std::size_t draws = 0, missed = 0;
+  for (const LimitsAtSpeed& at : limits) {
+    std::vector<double> known;
+    for (const std::optional<double>& limit : at.of_draws)
+      if (limit) known.push_back(*limit);
+    draws += at.of_draws.size();
+    missed += at.of_draws.size() - known.size();
+    if (!at.nominal || 2 * known.size() < at.of_draws.size()) continue;
+    std::ranges::sort(known);
+    rows.push_back(
+        {at.spindle_speed_rpm, *at.nominal, reached_by(known, 0.5), reached_by(known, 0.9), reached_by(known, 0.95)});
+  }
+  if (missed > 0 || rows.size() < limits.size()) {
+    core::warn(
+        fmt::format("calibration: of {} limits of draws {} are left out, for their search missed a crossing; of "
+                    "{} speeds {} have no learned limit",
+                    draws, missed, limits.size(), limits.size() - rows.size()));
+  }
+  return rows;
+}
 
 learning::CutModel cut_model(const setup::CutSetup& source, const milling::Cut& nominal,
                              const milling::StabilityOptions& options) {
@@ -142,7 +141,7 @@ LearnedChart learned_chart(const setup::CutSetup& source, const milling::Cut& no
   tell_of_doubt(chart.calibration);
   const learning::CutModel& model = chart.calibration.model;
   const Eigen::VectorXd nothing_learned = Eigen::VectorXd::Zero(std::ssize(model.parameters));
-  chart.before = score_of(model, learning::predict(model, nothing_learned, false));
+  learning::count(chart.before.emplace(), model, learning::predict(model, nothing_learned, false));
   if (wanted.folds) chart.cross_validated = learning::cross_validated(model, *wanted.folds);
   chart.rows = limits_of_draws(*source.lobes, chart.calibration, options);
   const auto rpm = wanted.spindle_speed_rpm ? wanted.spindle_speed_rpm : source.cutting->spindle_speed_rpm;

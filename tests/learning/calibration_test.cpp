@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/error.hpp"
+#include "learning/interpolated_cuts.hpp"
 #include "learning/next_cut.hpp"
 #include "milling/direct/stability.hpp"
 #include "tests/learning/synthetic.hpp"
@@ -177,6 +179,52 @@ TEST(Calibration, RefusesAModelWithoutCutsOrUncertainty) {
   EXPECT_THROW((void)likeliest(certain), core::InputError);
   machine.model.cuts.clear();
   EXPECT_THROW((void)likeliest(machine.model), core::InputError);
+}
+
+TEST(InterpolatedCuts, AreThePredictionAtTheirPlacesAndNearItBetween) {
+  const Machine machine = drawn_machine(4, 12);
+  std::mt19937 random(5);
+  std::vector<Eigen::VectorXd> places;
+  for (int i = 0; i < 150; ++i) places.push_back(0.5 * milling::standard_normal(8, random));
+  InterpolatedCuts cuts(machine.model, {places.begin(), places.end() - 30});
+  cuts.add(machine.model, places);  // 120 of them once more
+  for (const std::size_t i : {0u, 130u}) {
+    const PredictedCuts exact = predict(machine.model, places[i], false), found = cuts(places[i]);
+    EXPECT_LT((found.margin - exact.margin).cwiseAbs().maxCoeff(), 1e-8);
+    for (Eigen::Index k = 0; k < 12; ++k)
+      if (machine.model.cuts[static_cast<std::size_t>(k)].chatter_frequency_hz)
+        EXPECT_NEAR(found.frequency_hz(k), exact.frequency_hz(k), 1e-6);
+  }
+  // Between them it is off by a small part of what the margins change.
+  double error = 0.0, change = 0.0;
+  const Eigen::VectorXd middle = predict(machine.model, Eigen::VectorXd::Zero(8), false).margin;
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::VectorXd z = 0.5 * milling::standard_normal(8, random);
+    const Eigen::VectorXd exact = predict(machine.model, z, false).margin;
+    error += (cuts(z).margin - exact).squaredNorm();
+    change += (middle - exact).squaredNorm();
+  }
+  EXPECT_LT(error, 0.05 * change);
+  EXPECT_THROW(InterpolatedCuts(machine.model, {places.begin(), places.begin() + 44}), core::InputError);
+}
+
+TEST(NextCut, LeavesOutRowsWithoutAnAnswer) {
+  milling::LobeRow row;
+  row.limiting_depth_m = 1e-3;
+  for (const auto status : {milling::StabilityStatus::converged, milling::StabilityStatus::node_limit_reached,
+                            milling::StabilityStatus::data_limited, milling::StabilityStatus::stable_to_depth_limit}) {
+    row.status = status;
+    EXPECT_EQ(answered_limit_m(row), 1e-3) << milling::name(status);
+  }
+  for (const auto status : {milling::StabilityStatus::crossing_missed, milling::StabilityStatus::data_insufficient}) {
+    row.status = status;
+    EXPECT_FALSE(answered_limit_m(row)) << milling::name(status);
+  }
+  row.status = milling::StabilityStatus::converged;
+  for (const double depth : {0.0, -1e-3, std::numeric_limits<double>::quiet_NaN()}) {
+    row.limiting_depth_m = depth;
+    EXPECT_FALSE(answered_limit_m(row)) << depth;
+  }
 }
 
 TEST(NextCut, NarrowsTheLimitMostAndNeverWidensIt) {
