@@ -8,6 +8,7 @@
 #include "setup/chart.hpp"
 #include "setup/contact.hpp"
 #include "setup/contact_model.hpp"
+#include "setup/cut_materials.hpp"
 #include "setup/cutting.hpp"
 #include "setup/data_files.hpp"
 #include "setup/fit.hpp"

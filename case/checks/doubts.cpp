@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/units.hpp"
+#include "setup/cut_materials.hpp"
 #include "setup/identified/posture_tables.hpp"
 #include "setup/milling_process.hpp"
 #include "setup/simulation_options.hpp"
@@ -88,6 +89,20 @@ void ask_about_robot_damping(const Case& source, std::vector<std::string>& doubt
                    ": did you mean damping_ratio = " + written + "?");
 }
 
+/// Coefficients that are those of no tool of the case.
+void ask_about_cut_material(const Case& source, std::vector<std::string>& doubts) {
+  const CaseValue* given = find(source.values, "cutting.material");
+  const auto* material = given ? std::get_if<std::string>(&given->value) : nullptr;
+  const auto middle = material ? setup::coefficients_of(*material) : std::nullopt;
+  if (!middle || source.cutting->Kt != middle->K_t) return;
+  doubts.push_back("cutting.material " + *material + ": Kt " + core::readable_text(middle->K_t, core::kind::stress) +
+                   " and Kr " + core::readable_text(middle->K_r, core::kind::stress) + " are the middle of " +
+                   std::to_string(middle->tools) + " published tools, between which Kt has a standard deviation of " +
+                   core::number_text(100.0 * middle->spread, 2) +
+                   " %, which the robust chart takes; the range of chip thickness is not published; thinwall "
+                   "coefficients finds those of your tool");
+}
+
 /// More turns than the part is long.
 void ask_about_turns(const Case& source, std::vector<std::string>& doubts) {
   if (!source.simulation || !source.part || !source.cutting || !source.tool || source.simulation->length_m) return;
@@ -112,6 +127,7 @@ std::vector<std::string> doubts_about(const Case& source) {
   ask_about_materials(source, doubts);
   ask_about_robot_damping(source, doubts);
   ask_about_turns(source, doubts);
+  ask_about_cut_material(source, doubts);
   if (const setup::TabledRobot* robot = setup::tabled_robot(source.robot)) {
     const std::vector<std::string> of_postures = setup::doubts_about(*robot);
     doubts.insert(doubts.end(), of_postures.begin(), of_postures.end());

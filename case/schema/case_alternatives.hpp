@@ -119,6 +119,7 @@ inline constexpr Belonging case_belongings[] = {
     {"tool.tip_angle", "tool.end", "general"},
     {"tool.taper", "tool.end", "general"},
 
+    {"cutting.material", "cutting.law", "linear"},
     {"cutting.Kt", "cutting.law", "linear|power|fractional", belongings::needed},
     {"cutting.exponents", "cutting.law", "power", belongings::needed},
     {"cutting.chip_scale", "cutting.law", "fractional", belongings::needed},

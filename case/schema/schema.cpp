@@ -353,6 +353,7 @@ constexpr Key case_keys[] = {
     Key{"cutting.mode", Type::choice, kind::number, "\"down\"", any, "down|up", "Down (climb) or up (conventional) milling."},
     Key{"cutting.feed_direction", Type::direction, kind::number, "\"y\"", any, "", "Feed of the tool, in the part's axes."},
     Key{"cutting.tool_axis", Type::direction, kind::number, "\"z\"", any, "", "Axis of the tool, in the part's axes."},
+    Key{"cutting.material", Type::choice, kind::number, "", any, "Al6061|Al7075-T6", "Of which published coefficients are taken: the middle of several tools for Kt and Kr, where these are not given, and their spread for lobes.uncertainty.coefficients. For the linear law."},
     Key{"cutting.Kt", Type::quantity, kind::stress, "", coefficient_bounds, "", "Tangential cutting coefficient: K_t of the linear law, k1.1 (at a chip of 1 mm) of the power law, stiffness at thin chips of the fractional one."},
     Key{"cutting.Kr", Type::quantity, kind::stress, "0", radial_bounds, "", "Radial cutting coefficient."},
     Key{"cutting.Ka", Type::quantity, kind::stress, "0", axial_bounds, "", "Axial cutting coefficient, positive towards the spindle."},
@@ -401,7 +402,8 @@ constexpr Key case_keys[] = {
     Key{"calibration.draws", Type::integer, kind::number, "200", {40, 1e5, false, false, false, "200 tell a deviation to a few percent"}, "", "Draws of each of four chains, after the fifth of them that is left out."},
     Key{"calibration.seed", Type::integer, kind::number, "1", {0, 1e9, false, false, false, ""}, "", "Seed of these draws."},
     Key{"calibration.folds", Type::integer, kind::number, "", {2, 100, false, false, false, "10 is usual"}, "", "Parts of the cuts, each of which is predicted by what the others teach; not done if not given."},
-    Key{"calibration.spindle_speed", Type::quantity, kind::spindle_speed, "", positive, "", "The speed whose limit the next cut is to narrow; `cutting.spindle_speed` if not given."},
+    Key{"calibration.spindle_speed", Type::quantity, kind::spindle_speed, "", positive, "", "The speed whose limit the next cut is to narrow; `cutting.spindle_speed` if not given, and without that the next cut narrows the speed at which most is removed."},
+    Key{"calibration.risk", Type::quantity, kind::number, "", {0.0, 1.0, true, true, false, "0.1 is usual"}, "", "Also proposes the cut of the highest removal rate that chatters with at most this probability."},
 
     Key{"machine.min_spindle_speed", Type::quantity, kind::spindle_speed, "", not_negative, "", "Lowest spindle speed."},
     Key{"machine.max_spindle_speed", Type::quantity, kind::spindle_speed, "", positive, "", "Highest spindle speed."},

@@ -63,18 +63,28 @@ std::vector<LearnedChart::Row> limits_of_draws(const setup::LobesOptions& lobes,
   return answered_rows(limits);
 }
 
-/// The next cut; none, with a warning, where every one is beyond the machine or too likely to chatter.
-std::optional<learning::NextCut> next_cut_for(double rpm, const learning::Calibration& learned,
-                                              const std::vector<milling::OperatingPoint>& candidates) {
-  std::optional<learning::NextCut> next;
-  if (!candidates.empty()) next = learning::next_cut(learned, candidate_draws, rpm, candidates);
-  if (!next) {
+/// The cuts to make next, or a warning where every one is beyond the machine or too likely to chatter.
+void add_next_cuts(LearnedChart& chart, const setup::CutSetup& source,
+                   const std::vector<milling::OperatingPoint>& candidates) {
+  const setup::Calibration& wanted = *source.calibration;
+  const auto warn_of = [](const char* cut, double risk) {
     core::warn(
-        fmt::format("calibration: no next cut for {:g} rpm, since every cut of the chart lies beyond [machine] or "
-                    "chatters with a probability above {:g}; look at the limits of [machine]",
-                    rpm, learning::riskiest_next_cut));
+        fmt::format("calibration: no {} cut, since every cut of the chart lies beyond [machine] or chatters with "
+                    "a probability above {:g}; look at the limits of [machine]",
+                    cut, risk));
+  };
+  const learning::Calibration& learned = chart.calibration;
+  chart.next_for_rpm = wanted.spindle_speed_rpm ? wanted.spindle_speed_rpm : source.cutting->spindle_speed_rpm;
+  if (!candidates.empty()) {
+    const std::vector<double> speeds =
+        milling::spindle_speeds(source.lobes->from_rpm, source.lobes->to_rpm, limit_speeds);
+    chart.next = chart.next_for_rpm ? learning::next_cut(learned, candidate_draws, *chart.next_for_rpm, candidates)
+                                    : learning::next_cut_for_best_speed(learned, candidate_draws, speeds, candidates);
+    if (wanted.risk)
+      chart.productive = learning::most_productive_cut(learned, candidate_draws, candidates, *wanted.risk);
   }
-  return next;
+  if (!chart.next) warn_of("next", learning::riskiest_next_cut);
+  if (wanted.risk && !chart.productive) warn_of("productive", *wanted.risk);
 }
 
 void tell_of_doubt(const learning::Calibration& learned) {
@@ -144,8 +154,7 @@ LearnedChart learned_chart(const setup::CutSetup& source, const milling::Cut& no
   learning::count(chart.before.emplace(), model, learning::predict(model, nothing_learned, false));
   if (wanted.folds) chart.cross_validated = learning::cross_validated(model, *wanted.folds);
   chart.rows = limits_of_draws(*source.lobes, chart.calibration, options);
-  const auto rpm = wanted.spindle_speed_rpm ? wanted.spindle_speed_rpm : source.cutting->spindle_speed_rpm;
-  if (rpm) chart.next = next_cut_for(*rpm, chart.calibration, candidates_of(source, nominal.process));
+  add_next_cuts(chart, source, candidates_of(source, nominal.process));
   return chart;
 }
 

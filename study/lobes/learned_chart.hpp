@@ -27,7 +27,7 @@ struct LimitsAtSpeed {
 [[nodiscard]] std::vector<LearnedChart::Row> answered_rows(const std::vector<LimitsAtSpeed>& limits);
 
 /// The answer to [calibration]: the posterior, the share of cuts that are predicted rightly before and, with folds, by
-/// what the others teach, the limits of the draws over the speeds of the chart, and the next cut for one speed. Throws
+/// what the others teach, the limits of the draws over the speeds of the chart, and the cuts to make next. Throws
 /// InputError as learning::calibrate(). Cost: that of the posterior, and some thousand rows.
 [[nodiscard]] LearnedChart learned_chart(const setup::CutSetup& source, const milling::Cut& nominal,
                                          const milling::StabilityOptions& options);

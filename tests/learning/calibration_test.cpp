@@ -242,6 +242,28 @@ TEST(NextCut, NarrowsTheLimitMostAndNeverWidensIt) {
   EXPECT_GT(best.chatter_probability, 0.1);
   EXPECT_LE(best.chatter_probability, 0.6);
   EXPECT_FALSE(next_cut(learned, 40, 9000.0, {{9000.0, 3e-3}}));  // chatters with near certainty
+  // Of the candidates the most productive one is the deepest that is safe enough, and deeper where more is risked.
+  const NextCut safe = most_productive_cut(learned, 40, candidates, 0.1).value();
+  const NextCut bold = most_productive_cut(learned, 40, candidates, 0.5).value();
+  EXPECT_LE(safe.chatter_probability, 0.1);
+  EXPECT_LE(bold.chatter_probability, 0.5);
+  EXPECT_GT(bold.point.depth_m, safe.point.depth_m);
+  EXPECT_FALSE(most_productive_cut(learned, 40, {{9000.0, 3e-3}}, 0.1));
+  EXPECT_THROW((void)most_productive_cut(learned, 40, candidates, 1.5), core::InputError);
+}
+
+TEST(NextCut, HasTheExpectedVarianceOfTwoOutcomes) {
+  // Four draws of y = 0, 0, 1, 1: a cut that chatters with the last two alone leaves no variance, one that does not
+  // tell them apart leaves all of it, and one that chatters with the last draw leaves that of 0, 0, 1 in three of four.
+  Eigen::MatrixXd chatter(4, 3);
+  chatter << 0.0, 0.5, 0.0, 0.0, 0.5, 0.0, 1.0, 0.5, 0.0, 1.0, 0.5, 1.0;
+  const Eigen::VectorXd after =
+      expected_variances(chatter, Eigen::Vector4d(0.0, 0.0, 1.0, 1.0), Eigen::Vector4d::Constant(0.25));
+  EXPECT_NEAR(after(0), 0.0, 1e-15);
+  EXPECT_NEAR(after(1), 0.25, 1e-15);
+  EXPECT_NEAR(after(2), 0.75 * (2.0 / 9.0), 1e-15);
+  EXPECT_EQ(best_speed_rpm({1.0, 2.0, 3.0}, {3e-3, 2e-3, std::nullopt}), 2.0);
+  EXPECT_FALSE(best_speed_rpm({1.0}, {std::nullopt}));
 }
 
 }  // namespace
