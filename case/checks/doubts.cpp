@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/units.hpp"
+#include "milling/cut/chip_load.hpp"
 #include "setup/cut_materials.hpp"
 #include "setup/identified/posture_tables.hpp"
 #include "setup/milling_process.hpp"
@@ -103,6 +104,35 @@ void ask_about_cut_material(const Case& source, std::vector<std::string>& doubts
                    "coefficients finds those of your tool");
 }
 
+std::vector<milling::Engagement> arcs_of(const setup::Cutting& cutting, const milling::Cutter& cutter) {
+  if (cutting.radial_depth) {
+    const auto direction = cutting.down_milling ? milling::MillingDirection::down : milling::MillingDirection::up;
+    return {milling::engagement_of(cutter, *cutting.radial_depth, direction)};
+  }
+  std::vector<milling::Engagement> arcs;
+  for (std::size_t i = 0; i < cutting.entry_angles.size() && i < cutting.exit_angles.size(); ++i)
+    arcs.push_back({cutting.entry_angles[i], cutting.exit_angles[i]});
+  return arcs;
+}
+
+/// Coefficients that were measured with thicker chips.
+void ask_about_thin_chips(const Case& source, std::vector<std::string>& doubts) {
+  const CaseValue* given = find(source.values, "cutting.thinnest_chip");
+  const auto* thinnest = given ? std::get_if<double>(&given->value) : nullptr;
+  if (!thinnest || !source.tool || !source.cutting) return;
+  const auto feed = setup::feed_per_tooth(source);
+  const milling::Cutter cutter = setup::cutter_of(*source.tool);
+  const auto arcs = arcs_of(*source.cutting, cutter);
+  if (!feed || arcs.empty()) return;
+  double mean = *thinnest;
+  for (const milling::ChipLoad& load : milling::chip_loads(cutter, arcs, *feed))
+    if (load.mean_thickness_m > 0.0) mean = std::min(mean, load.mean_thickness_m);
+  if (!(mean < *thinnest)) return;
+  doubts.push_back("the mean chip is " + core::readable_text(mean, core::kind::length) +
+                   " thick, thinner than cutting.thinnest_chip, " + core::readable_text(*thinnest, core::kind::length) +
+                   ", at which the coefficients were measured; thin chips take more force per area");
+}
+
 /// More turns than the part is long.
 void ask_about_turns(const Case& source, std::vector<std::string>& doubts) {
   if (!source.simulation || !source.part || !source.cutting || !source.tool || source.simulation->length_m) return;
@@ -128,6 +158,7 @@ std::vector<std::string> doubts_about(const Case& source) {
   ask_about_robot_damping(source, doubts);
   ask_about_turns(source, doubts);
   ask_about_cut_material(source, doubts);
+  ask_about_thin_chips(source, doubts);
   if (const setup::TabledRobot* robot = setup::tabled_robot(source.robot)) {
     const std::vector<std::string> of_postures = setup::doubts_about(*robot);
     doubts.insert(doubts.end(), of_postures.begin(), of_postures.end());

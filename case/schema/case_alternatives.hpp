@@ -120,7 +120,7 @@ inline constexpr Belonging case_belongings[] = {
     {"tool.taper", "tool.end", "general"},
 
     {"cutting.material", "cutting.law", "linear"},
-    {"cutting.Kt", "cutting.law", "linear|power|fractional", belongings::needed},
+    {"cutting.Kt", "cutting.law", "linear|power|fractional", belongings::needed, "cutting.material"},
     {"cutting.exponents", "cutting.law", "power", belongings::needed},
     {"cutting.chip_scale", "cutting.law", "fractional", belongings::needed},
     {"cutting.stiffness_ratio", "cutting.law", "fractional", belongings::needed},

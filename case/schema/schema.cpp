@@ -364,6 +364,7 @@ constexpr Key case_keys[] = {
     Key{"cutting.feed_rate", Type::quantity, kind::velocity, "", positive, "", "Feed rate. With `spindle_speed` it gives the feed per tooth, on which stability depends where `law` is not linear."},
     Key{"cutting.feed_per_tooth", Type::quantity, kind::length, "", positive, "", "In place of `feed_rate`; the same at every speed of the chart."},
     Key{"cutting.law", Type::choice, kind::number, "\"linear\"", any, "linear|power|fractional|oblique", "Force over chip thickness: linear; power (Kienzle, K h (h/1 mm)^-m); fractional (Bondarenko 2012), both linearised at the mean chip; or linear by the orthogonal-to-oblique transformation."},
+    Key{"cutting.thinnest_chip", Type::quantity, kind::length, "", positive, "", "The thinnest chip at which the coefficients of any law were measured; a cut whose mean chip is thinner is told."},
     Key{"cutting.exponents", Type::quantities, kind::number, "", exponent_bounds, "", "m: one, or three for Kt, Kr, Ka."},
     Key{"cutting.chip_scale", Type::quantity, kind::length, "", positive, "", "h_s: the chip at which it bends."},
     Key{"cutting.stiffness_ratio", Type::quantity, kind::number, "", {0.0, 1.0, false, false, false, ""}, "", "r: stiffness at thick chips over that at thin ones."},

@@ -25,7 +25,7 @@ constexpr double heard_deviation = 0.05;
 constexpr std::size_t limit_draws = 60, candidate_draws = 60;
 constexpr int limit_speeds = 40, candidate_speeds = 24, candidate_depths = 12;
 
-/// Speeds and depths that fill the chart and that the machine can do.
+/// Speeds and depths that fill the chart, shallow ones more densely, and that the machine can do.
 std::vector<milling::OperatingPoint> candidates_of(const setup::CutSetup& source,
                                                    const milling::MillingProcess& process) {
   const setup::LobesOptions& lobes = *source.lobes;
@@ -34,7 +34,8 @@ std::vector<milling::OperatingPoint> candidates_of(const setup::CutSetup& source
   std::vector<milling::OperatingPoint> list;
   for (const double rpm : milling::spindle_speeds(lobes.from_rpm, lobes.to_rpm, candidate_speeds)) {
     for (int d = 1; d <= candidate_depths; ++d) {
-      const milling::OperatingPoint point{rpm, std::min(lobes.depth_limit, lobes.depth_limit * d / candidate_depths)};
+      const double share = static_cast<double>(d) / candidate_depths;
+      const milling::OperatingPoint point{rpm, lobes.depth_limit * share * share};
       if (can_do(machine, load, point)) list.push_back(point);
     }
   }

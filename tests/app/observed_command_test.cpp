@@ -97,7 +97,7 @@ TEST_F(ObservedCommand, LearnsFromCuts) {
   for (const double share : {0.85, 0.9, 0.95}) cuts += cut("12000", std::to_string(share * limit_mm), "chatter");
   write("case.toml", tool_case + cuts);
   const Outcome done =
-      command({"calibrate", path("case.toml"), "--draws", "40", "--risk", "0.1", "--out", path("results"), "-q"});
+      command({"calibrate", path("case.toml"), "--draws", "40", "--risk", "0.3", "--out", path("results"), "-q"});
   ASSERT_EQ(done.code, 0) << done.err;
   const auto learned = chart()["learned"];
   EXPECT_TRUE(learned["converged"].get<bool>());
@@ -108,7 +108,7 @@ TEST_F(ObservedCommand, LearnsFromCuts) {
   ASSERT_TRUE(learned.contains("next_cut"));
   EXPECT_LT(learned["next_cut"]["deviation_after"], learned["next_cut"]["deviation_before"]);
   ASSERT_TRUE(learned.contains("productive_cut"));
-  EXPECT_LE(learned["productive_cut"]["chatter_probability"].get<double>(), 0.1);
+  EXPECT_LE(learned["productive_cut"]["chatter_probability"].get<double>(), 0.3);
   EXPECT_EQ(learned["next_cut"]["for_rpm"], 12000.0);
   for (const auto& row : learned["rows"]) EXPECT_LE(row["stable_95_m"], row["median_m"]);
 }

@@ -86,6 +86,18 @@ TEST(CutMaterial, LeavesWhatIsGiven) {
   EXPECT_FALSE(other.lobes->robust);
 }
 
+TEST(CutMaterial, TellsChipsThatAreThinnerThanThoseMeasured) {
+  // Half immersion: the mean of f sin φ over a quarter of a turn is 2 f/π, 64 µm of 0.1 mm.
+  const auto told = [](const std::string& thinnest) {
+    const Case source =
+        case_with("Kt = \"700 N/mm^2\"\nfeed_per_tooth = \"0.1 mm\"\nthinnest_chip = \"" + thinnest + "\"");
+    const auto doubts = doubts_about(source);
+    return std::ranges::any_of(doubts, [](const std::string& doubt) { return doubt.find("the mean chip is") == 0; });
+  };
+  EXPECT_FALSE(told("0.0636 mm"));
+  EXPECT_TRUE(told("0.0637 mm"));
+}
+
 TEST(CutMaterial, BelongsToTheLinearLaw) {
   EXPECT_THROW(
       (void)case_with("material = \"Al7075-T6\"\nlaw = \"power\"\nexponents = [0.2]\nfeed_per_tooth = \"0.1 mm\""),
