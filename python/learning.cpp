@@ -26,7 +26,8 @@ const Value& at(const OneOrMore<Value>& list, std::size_t k, std::size_t count, 
 /// A test for each row of the forces.
 std::vector<learning::MeanForceTest> tests_of(const OneOrMore<double>& feed, const OneOrMore<double>& depth,
                                               const Eigen::Matrix<double, Eigen::Dynamic, 3>& force,
-                                              const OneOrMore<Range>& arc) {
+                                              const std::optional<OneOrMore<Range>>& given) {
+  const OneOrMore<Range> arc = given.value_or(OneOrMore<Range>{{Range(0.0, std::numbers::pi)}});
   const auto count = static_cast<std::size_t>(force.rows());
   std::vector<learning::MeanForceTest> tests;
   for (std::size_t k = 0; k < count; ++k) {
@@ -61,14 +62,14 @@ py::dict dict_of_fit(const Fit& fit) {
 
 py::dict mean_force_coefficients(int teeth, const OneOrMore<double>& feed_per_tooth_m, const OneOrMore<double>& depth_m,
                                  const Eigen::Matrix<double, Eigen::Dynamic, 3>& force_n,
-                                 const OneOrMore<Range>& arc_rad) {
+                                 const std::optional<OneOrMore<Range>>& arc_rad) {
   return dict_of_fit(learning::fit_mean_forces(teeth, tests_of(feed_per_tooth_m, depth_m, force_n, arc_rad)));
 }
 
 py::dict edge_force_coefficients(int teeth, double diameter_m, const OneOrMore<double>& feed_per_tooth_m,
                                  const OneOrMore<double>& depth_m, const Eigen::VectorXd& angle_rad,
                                  const Eigen::Matrix<double, Eigen::Dynamic, 3>& force_n,
-                                 const OneOrMore<Range>& arc_rad, double helix_rad) {
+                                 const std::optional<OneOrMore<Range>>& arc_rad, double helix_rad) {
   milling::Cutter cutter;
   cutter.teeth = teeth;
   cutter.diameter_m = diameter_m;
@@ -90,16 +91,15 @@ py::dict edge_force_coefficients(int teeth, double diameter_m, const OneOrMore<d
 }  // namespace
 
 void bind_learning(py::module_& module) {
-  const OneOrMore<Range> slot{{Range(0.0, std::numbers::pi)}};
   module.def("mean_force_coefficients", mean_force_coefficients, "teeth"_a, "feed_per_tooth_m"_a, "depth_m"_a,
-             "force_n"_a, py::kw_only(), "arc_rad"_a = slot,
+             "force_n"_a, py::kw_only(), "arc_rad"_a = py::none(),
              "Cutting coefficients from mean forces over a turn: a dict of K_t, K_r, K_a (N/m^2), K_te, K_re, K_ae\n"
              "(N/m of depth), each the value and half its interval of 95 %, r_squared, residual_n and condition.\n"
              "force_n has a row a cut: feed, normal, axis, on the tool. Feed, depth and the arc (entry and exit, from\n"
              "the normal in the direction of rotation; a slot if not given) are one value or one for each cut.");
   module.def(
       "edge_force_coefficients", edge_force_coefficients, "teeth"_a, "diameter_m"_a, "feed_per_tooth_m"_a, "depth_m"_a,
-      "angle_rad"_a, "force_n"_a, py::kw_only(), "arc_rad"_a = slot, "helix_rad"_a = 0.0,
+      "angle_rad"_a, "force_n"_a, py::kw_only(), "arc_rad"_a = py::none(), "helix_rad"_a = 0.0,
       "Cutting coefficients and runout from forces over the angle of the first tooth's tip: the dict of\n"
       "mean_force_coefficients() with edge coefficients in N/m of edge, and runout_m, the radial offset of each\n"
       "tooth as value and half interval, and converged. A row of force_n is an angle; neighbouring rows of one\n"

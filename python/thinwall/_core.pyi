@@ -305,7 +305,7 @@ def mean_force_coefficients(
     depth_m: float | Sequence[float],
     force_n: ArrayLike,
     *,
-    arc_rad: tuple[float, float] | Sequence[tuple[float, float]] = ...,
+    arc_rad: tuple[float, float] | Sequence[tuple[float, float]] | None = None,
 ) -> dict[str, Any]: ...
 def edge_force_coefficients(
     teeth: int,
@@ -315,7 +315,7 @@ def edge_force_coefficients(
     angle_rad: ArrayLike,
     force_n: ArrayLike,
     *,
-    arc_rad: tuple[float, float] | Sequence[tuple[float, float]] = ...,
+    arc_rad: tuple[float, float] | Sequence[tuple[float, float]] | None = None,
     helix_rad: float = 0.0,
 ) -> dict[str, Any]: ...
 def route_difference(spatial: Response, receptance: Response) -> float: ...
