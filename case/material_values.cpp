@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "setup/cut_materials.hpp"
+#include "setup/materials/cut_materials.hpp"
 
 namespace thinwall::cases {
 

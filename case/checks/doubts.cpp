@@ -7,8 +7,8 @@
 
 #include "core/units.hpp"
 #include "milling/cut/chip_load.hpp"
-#include "setup/cut_materials.hpp"
 #include "setup/identified/posture_tables.hpp"
+#include "setup/materials/cut_materials.hpp"
 #include "setup/milling_process.hpp"
 #include "setup/simulation_options.hpp"
 

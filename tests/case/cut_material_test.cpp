@@ -11,7 +11,7 @@
 #include "case/reader.hpp"
 #include "case/schema/schema.hpp"
 #include "case/writer.hpp"
-#include "setup/cut_materials.hpp"
+#include "setup/materials/cut_materials.hpp"
 
 namespace thinwall::cases::cut_material_test {
 namespace {

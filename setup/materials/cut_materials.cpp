@@ -1,4 +1,4 @@
-#include "setup/cut_materials.hpp"
+#include "setup/materials/cut_materials.hpp"
 
 #include <array>
 #include <cmath>
