@@ -190,7 +190,7 @@ Calibration calibrate(CutModel model, const ChainOptions& options) {
     return log_posterior(c.model, prediction(without_noise(x)), x);
   };
   ChainOptions first = options;
-  first.draws = std::max(20, options.draws / 4);
+  first.draws = std::clamp(options.draws / 4, 20, 50);  // each is a row of the interpolation's dense equations
   first.left_out = 10;
   prediction.add(c.model, places_of(all_draws(surrogate_chains(dear, cheap, regions, first))));
   c.chains = surrogate_chains(dear, cheap, regions, options);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -18,24 +19,31 @@ using std::numbers::pi;
 
 constexpr Index coefficients = 6;
 
-/// The chip that a tooth cuts, and the number of the tooth whose surface it meets.
-struct Chip {
-  double thickness_m = 0.0;
-  int surface_of = 0;
+/// The surface that the tooth some places ahead left: the chip above it is advance sin φ + offset.
+struct Surface {
+  double advance_m = 0.0, offset_m = 0.0;
+  int left_by = 0;
+
+  [[nodiscard]] double chip_m(double phi) const { return advance_m * std::sin(phi) + offset_m; }
 };
 
-Chip chip_of(const milling::Cutter& cutter, const std::vector<double>& runout, double feed, int tooth, double phi) {
+std::vector<Surface> surfaces_before(const milling::Cutter& cutter, const std::vector<double>& runout, double feed,
+                                     int tooth) {
   const int z = cutter.teeth;
-  Chip chip;
+  std::vector<Surface> surfaces;
   double turned = 0.0;
   for (int k = 1; k <= z; ++k) {
     turned += cutter.pitch_rad((tooth - k + 1 + z) % z);
     const int ahead = (tooth - k + z) % z;
-    const double h = z * feed * turned / (2.0 * pi) * std::sin(phi) + runout[static_cast<std::size_t>(tooth)] -
-                     runout[static_cast<std::size_t>(ahead)];
-    if (k == 1 || h < chip.thickness_m) chip = {h, ahead};
+    surfaces.push_back({z * feed * turned / (2.0 * pi),
+                        runout[static_cast<std::size_t>(tooth)] - runout[static_cast<std::size_t>(ahead)], ahead});
   }
-  return chip;
+  return surfaces;
+}
+
+/// The surface that the tooth meets, which leaves it the thinnest chip.
+const Surface& met_at(const std::vector<Surface>& surfaces, double phi) {
+  return *std::ranges::min_element(surfaces, {}, [phi](const Surface& surface) { return surface.chip_m(phi); });
 }
 
 /// F = A (K_t, K_r, K_a, K_te, K_re, K_ae), and its derivative by the runout of each tooth.
@@ -62,35 +70,93 @@ struct Edges {
   }
 
  private:
+  /// A height at which the chip above a surface is 0.
+  struct Ending {
+    double height_m = 0.0;
+    const Surface* surface = nullptr;
+  };
+
   /// The heights at which the edge is in the cut follow from φ_tip − lag z in (entry, exit) + 2π n.
   void add_tooth(const ForceRecord& cut, int tooth, double tip, const milling::CuttingCoefficients& k,
                  EdgeForce& force) const {
+    const std::vector<Surface> surfaces = surfaces_before(cutter, runout, cut.feed_per_tooth_m, tooth);
     const double lag = cutter.lag_rad_per_m(tooth), last = tip - lag * cut.depth_m;
     const auto [entry, exit] = cut.engagement;
     for (double turn = 2.0 * pi * std::ceil((last - exit) / (2.0 * pi)); turn + entry < tip; turn += 2.0 * pi) {
       const double from = lag > 0.0 ? std::max(0.0, (tip - exit - turn) / lag) : 0.0;
       const double to = lag > 0.0 ? std::min(cut.depth_m, (tip - entry - turn) / lag) : cut.depth_m;
       if (to <= from) continue;
-      for (Index i = 0; i < rule.node.size(); ++i) {
-        const double height = from + (to - from) * rule.node(i), width = (to - from) * rule.weight(i);
-        const double edge = milling::edge_length_per_height(cutter, tooth, height) * width;
-        add_point(cut, tooth, tip - lag * height, width, edge, k, force);
+      const std::vector<Ending> endings = endings_between(surfaces, tip, lag, from, to);
+      double begin = from;
+      for (const Ending& ending : endings) {
+        add_piece(tooth, tip - lag * begin, begin, ending.height_m, surfaces, k, force);
+        add_ending(tooth, tip - lag * ending.height_m, ending, lag, surfaces, k, force);
+        begin = ending.height_m;
       }
+      add_piece(tooth, tip - lag * begin, begin, to, surfaces, k, force);
     }
   }
 
-  void add_point(const ForceRecord& cut, int tooth, double phi, double width, double edge,
+  /// The heights in (from, to) at which the chip above some surface begins or ends, ascending.
+  static std::vector<Ending> endings_between(const std::vector<Surface>& surfaces, double tip, double lag, double from,
+                                             double to) {
+    std::vector<Ending> endings;
+    if (!(lag > 0.0)) return endings;
+    for (const Surface& surface : surfaces) {
+      const double sine = -surface.offset_m / surface.advance_m;
+      if (!(std::abs(sine) < 1.0)) continue;
+      for (const double zero : {std::asin(sine), pi - std::asin(sine)}) {
+        const double last = tip - lag * to;
+        const double phi = zero + 2.0 * pi * std::ceil((last - zero) / (2.0 * pi)), height = (tip - phi) / lag;
+        if (height > from && height < to) endings.push_back({height, &surface});
+      }
+    }
+    std::ranges::sort(endings, {}, &Ending::height_m);
+    return endings;
+  }
+
+  /// Gauss's rule over heights without an ending between them; the angle is that at `from`.
+  void add_piece(int tooth, double phi_from, double from, double to, const std::vector<Surface>& surfaces,
                  const milling::CuttingCoefficients& k, EdgeForce& force) const {
-    const Chip chip = chip_of(cutter, runout, cut.feed_per_tooth_m, tooth, phi);
-    if (!(chip.thickness_m > 0.0)) return;
-    const Eigen::Vector3d r(std::sin(phi), std::cos(phi), 0.0), t(std::cos(phi), -std::sin(phi), 0.0);
-    Eigen::Matrix3d axes;
-    axes << -t, -r, Eigen::Vector3d::UnitZ();
-    force.A.leftCols<3>() += width * chip.thickness_m * axes;
+    const double lag = cutter.lag_rad_per_m(tooth);
+    for (Index i = 0; i < rule.node.size(); ++i) {
+      const double along = (to - from) * rule.node(i), width = (to - from) * rule.weight(i);
+      const double edge = milling::edge_length_per_height(cutter, tooth, from + along) * width;
+      add_point(tooth, phi_from - lag * along, width, edge, surfaces, k, force);
+    }
+  }
+
+  void add_point(int tooth, double phi, double width, double edge, const std::vector<Surface>& surfaces,
+                 const milling::CuttingCoefficients& k, EdgeForce& force) const {
+    const Surface& met = met_at(surfaces, phi);
+    const double thickness = met.chip_m(phi);
+    if (!(thickness > 0.0)) return;
+    const Eigen::Matrix3d axes = axes_at(phi);
+    force.A.leftCols<3>() += width * thickness * axes;
     force.A.rightCols<3>() += edge * axes;
     const Eigen::Vector3d by_chip = width * axes * Eigen::Vector3d(k.K_t, k.K_r, k.K_a);
     force.by_runout.col(tooth) += by_chip;
-    force.by_runout.col(chip.surface_of) -= by_chip;
+    force.by_runout.col(met.left_by) -= by_chip;
+  }
+
+  /// The edge that a thicker chip brings into the cut where it ends: dz = dh/(lag |dh/dφ|).
+  void add_ending(int tooth, double phi, const Ending& ending, double lag, const std::vector<Surface>& surfaces,
+                  const milling::CuttingCoefficients& k, EdgeForce& force) const {
+    constexpr double flattest = 1e-3;  // a chip that only touches 0 has no derivative there
+    const double slope = ending.surface->advance_m * std::abs(std::cos(phi));
+    if (&met_at(surfaces, phi) != ending.surface || slope < flattest * ending.surface->advance_m) return;
+    const double edge = milling::edge_length_per_height(cutter, tooth, ending.height_m);
+    const Eigen::Vector3d by_chip = edge / (lag * slope) * axes_at(phi) * Eigen::Vector3d(k.K_te, k.K_re, k.K_ae);
+    force.by_runout.col(tooth) += by_chip;
+    force.by_runout.col(ending.surface->left_by) -= by_chip;
+  }
+
+  /// −t, −r and the tool's axis as columns.
+  static Eigen::Matrix3d axes_at(double phi) {
+    const Eigen::Vector3d r(std::sin(phi), std::cos(phi), 0.0), t(std::cos(phi), -std::sin(phi), 0.0);
+    Eigen::Matrix3d axes;
+    axes << -t, -r, Eigen::Vector3d::UnitZ();
+    return axes;
   }
 };
 
@@ -149,7 +215,8 @@ Eigen::VectorXd measured(const std::vector<ForceRecord>& records) {
 void require_usable(const milling::Cutter& cutter, const std::vector<ForceRecord>& records) {
   if (const auto faults = milling::validate(cutter); !faults.empty())
     throw core::InputError("edge forces: " + faults.front());
-  if (!cutter.envelope.straight()) throw core::InputError("edge forces: the tool must be a cylinder; use mean forces");
+  if (!is_cylinder(cutter))
+    throw core::InputError("edge forces: the tool has another end than a cylinder; give forces of one with a flat end");
   if (records.empty()) throw core::InputError("edge forces: there is no record; give one at least");
   for (std::size_t i = 0; i < records.size(); ++i) {
     const ForceRecord& record = records[i];
@@ -186,6 +253,13 @@ bool is_same_cut(const MeanForceTest& a, const MeanForceTest& b) {
          a.engagement.entry_rad == b.engagement.entry_rad && a.engagement.exit_rad == b.engagement.exit_rad;
 }
 
+/// The gain in squares that a step predicts, over the variance of the residual: the square of its length in deviations.
+double predicted_gain(const LinearFit& fit, double before) {
+  const auto freedom = static_cast<double>(fit.degrees_of_freedom);
+  if (!(freedom > 0.0)) return std::numeric_limits<double>::infinity();
+  return (before - fit.residual_square) * freedom / fit.residual_square;
+}
+
 /// The search on its way.
 struct Search {
   Eigen::VectorXd x;
@@ -194,34 +268,68 @@ struct Search {
   bool converged = false;
 };
 
-Search search(const milling::Cutter& cutter, const std::vector<ForceRecord>& records, const Eigen::VectorXd& force) {
-  constexpr int most_steps = 50, most_halvings = 20;
-  constexpr double enough = 1e-9;
-  Search s{Eigen::VectorXd::Zero(coefficients + cutter.teeth - 1), {}};
-  s.at = modelled(cutter, records, s.x);
-  const LinearFit linear = linear_fit(s.at.by_x.leftCols(coefficients), force);
+/// What is fitted.
+struct Fitted {
+  const milling::Cutter& cutter;
+  const std::vector<ForceRecord>& records;
+  const Eigen::VectorXd& force;
+
+  [[nodiscard]] double square(const Modelled& at) const { return (force - at.force).squaredNorm(); }
+};
+
+/// The step, halved until it gains; false if it never does.
+bool advance(Search& s, const Fitted& fitted, Eigen::VectorXd step) {
+  constexpr int most_halvings = 20;
+  const double before = fitted.square(s.at);
+  for (int i = 0; i < most_halvings; ++i, step *= 0.5) {
+    Modelled there = modelled(fitted.cutter, fitted.records, s.x + step);
+    if (!(fitted.square(there) < before)) continue;
+    s.x += step;
+    s.at = std::move(there);
+    return true;
+  }
+  return false;
+}
+
+/// Ends where a step changes nothing: by round-off, or by a thousandth of the variance of the residual. The force of an
+/// edge without helix jumps with the runout, so that a step may gain nothing though it predicts some: then it is enough
+/// if it predicts less than noise moves the solution from the truth, the variance for each unknown.
+Search search(const Fitted& fitted) {
+  constexpr int most_steps = 50;
+  constexpr double exact = 1e-9, hidden = 1e-3;
+  Search s{Eigen::VectorXd::Zero(coefficients + fitted.cutter.teeth - 1), {}};
+  s.at = modelled(fitted.cutter, fitted.records, s.x);
+  const LinearFit linear = linear_fit(s.at.by_x.leftCols(coefficients), fitted.force);
   require_told_apart(linear);
   s.x.head(coefficients) = linear.x;
-  s.at = modelled(cutter, records, s.x);
+  s.at = modelled(fitted.cutter, fitted.records, s.x);
   for (bool gains = true; gains && !s.converged && s.steps < most_steps; ++s.steps) {
-    const LinearFit fit = linear_fit(s.at.by_x, force - s.at.force);
+    const LinearFit fit = linear_fit(s.at.by_x, fitted.force - s.at.force);
     require_told_apart(fit);
-    Eigen::VectorXd step = fit.x;
-    s.converged = relative_change(step, s.x, records.front().feed_per_tooth_m) < enough;
-    const double before = (force - s.at.force).squaredNorm();
-    gains = false;
-    for (int i = 0; i < most_halvings && !gains; ++i, step *= 0.5) {
-      Modelled there = modelled(cutter, records, s.x + step);
-      gains = s.converged || (force - there.force).squaredNorm() < before;
-      if (!gains) continue;
-      s.x += step;
-      s.at = std::move(there);
-    }
+    const double predicted = predicted_gain(fit, fitted.square(s.at));
+    const double change = relative_change(fit.x, s.x, fitted.records.front().feed_per_tooth_m);
+    s.converged = change < exact || predicted < hidden;
+    gains = advance(s, fitted, fit.x);
+    if (!gains) s.converged = s.converged || predicted < static_cast<double>(s.x.size());
   }
   return s;
 }
 
+/// The runout that is left for the last tooth, minus the sum of the others: its variance is the sum of their
+/// covariances.
+FittedCoefficient last_of(const LinearFit& fit, double runout) {
+  const Index others = fit.x.size() - coefficients;
+  if (others == 0) return {runout};
+  if (fit.degrees_of_freedom == 0) return {runout, interval_factor(fit), interval_factor(fit)};
+  const double deviation = std::sqrt(fit.covariance.bottomRightCorner(others, others).sum());
+  return {runout, deviation, deviation * interval_factor(fit)};
+}
+
 }  // namespace
+
+bool is_cylinder(const milling::Cutter& cutter) {
+  return cutter.envelope.straight() && cutter.envelope.taper_rad == 0.0;
+}
 
 std::vector<ForceRecord> records_of(const std::vector<MeanForceTest>& lines, const Eigen::VectorXd& angles_rad) {
   if (std::ssize(lines) != angles_rad.size()) {
@@ -252,7 +360,7 @@ Eigen::Vector3d edge_force_n(const milling::Cutter& cutter, const milling::Cutti
 EdgeForceFit fit_edge_forces(const milling::Cutter& cutter, const std::vector<ForceRecord>& records) {
   require_usable(cutter, records);
   const Eigen::VectorXd force = measured(records);
-  const Search found = search(cutter, records, force);
+  const Search found = search({cutter, records, force});
   LinearFit about = linear_fit(found.at.by_x, force - found.at.force);
   require_told_apart(about);
   about.x = found.x;
@@ -260,7 +368,7 @@ EdgeForceFit fit_edge_forces(const milling::Cutter& cutter, const std::vector<Fo
   EdgeForceFit fit{coefficient_of(about, 0), coefficient_of(about, 1), coefficient_of(about, 2),
                    coefficient_of(about, 3), coefficient_of(about, 4), coefficient_of(about, 5)};
   for (Index j = 0; j + 1 < cutter.teeth; ++j) fit.runout_m.push_back(coefficient_of(about, coefficients + j));
-  fit.runout_m.push_back({runout.back()});
+  fit.runout_m.push_back(last_of(about, runout.back()));
   const double residual = (force - found.at.force).squaredNorm();
   const Eigen::Map<const Eigen::Matrix3Xd> forces(force.data(), 3, force.size() / 3);
   const double scatter = (forces.colwise() - forces.rowwise().mean()).squaredNorm();

@@ -45,16 +45,20 @@ InterpolatedCuts::InterpolatedCuts(const CutModel& model, const std::vector<Eige
 }
 
 void InterpolatedCuts::add(const CutModel& model, const std::vector<Eigen::VectorXd>& places) {
-  const std::size_t before = places_.size();
+  std::vector<Eigen::VectorXd> fresh;
   for (const Eigen::VectorXd& place : places)
-    if (std::ranges::find(places_, place) == places_.end()) places_.push_back(place);
-  values_.resize(places_.size());
-  core::parallel_for(places_.size() - before, [&](std::size_t i) {
-    const PredictedCuts at = predict(model, places_[before + i], false);
-    Eigen::RowVectorXd& row = values_[before + i];
-    row.resize(cuts_ + std::ssize(heard_));
-    row << at.margin.transpose(), at.frequency_hz(heard_).transpose();
+    if (std::ranges::find(places_, place) == places_.end() && std::ranges::find(fresh, place) == fresh.end())
+      fresh.push_back(place);
+  std::vector<Eigen::RowVectorXd> values(fresh.size(), Eigen::RowVectorXd(cuts_ + std::ssize(heard_)));
+  core::parallel_for(fresh.size(), [&](std::size_t i) {
+    const PredictedCuts at = predict(model, fresh[i], false);
+    values[i] << at.margin.transpose(), at.frequency_hz(heard_).transpose();
   });
+  for (std::size_t i = 0; i < fresh.size(); ++i) {
+    if (!values[i].allFinite()) continue;
+    places_.push_back(std::move(fresh[i]));
+    values_.push_back(std::move(values[i]));
+  }
   interpolate();
 }
 
@@ -81,6 +85,9 @@ void InterpolatedCuts::interpolate() {
     b.row(i) = values_[static_cast<std::size_t>(i)];
   }
   coefficients_ = Eigen::PartialPivLU<Eigen::MatrixXd>(A).solve(b);
+  if (!coefficients_.allFinite())
+    throw core::NumericalError("interpolated cuts: the equations of " + std::to_string(count) +
+                               " places are singular; take fewer uncertain parameters");
 }
 
 PredictedCuts InterpolatedCuts::operator()(const Eigen::VectorXd& z) const {

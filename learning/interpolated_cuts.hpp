@@ -17,8 +17,9 @@ namespace thinwall::learning {
 /// wherever the posterior turns out to lie, also if that is in regions apart from one another.
 class InterpolatedCuts {
  public:
-  /// Predicts at all places, of which equal ones count once. Throws InputError unless the differing places determine a
-  /// quadratic, and as predict(). Cost: a prediction a place, and O(places³).
+  /// Predicts at all places, of which equal ones count once and those without a finite prediction not at all. Throws
+  /// InputError unless the others determine a quadratic, NumericalError if the equations are singular, and as
+  /// predict(). Cost: a prediction a place, and O(places³).
   InterpolatedCuts(const CutModel& model, const std::vector<Eigen::VectorXd>& places);
 
   /// Predicts at further places as well. Throws and costs as the constructor.

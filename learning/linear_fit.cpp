@@ -32,15 +32,21 @@ LinearFit linear_fit(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   fit.residual_square = (b - scaled * y).squaredNorm();
   const double variance =
       fit.degrees_of_freedom > 0 ? fit.residual_square / static_cast<double>(fit.degrees_of_freedom) : infinite;
-  fit.deviation = (variance * inverse.diagonal()).cwiseSqrt().cwiseQuotient(length);
+  const Eigen::VectorXd per_length = length.cwiseInverse();
+  fit.covariance = variance * (per_length.asDiagonal() * inverse * per_length.asDiagonal());
+  fit.deviation = fit.covariance.diagonal().cwiseSqrt();
   return fit;
+}
+
+double interval_factor(const LinearFit& fit) {
+  if (fit.degrees_of_freedom == 0) return std::numeric_limits<double>::infinity();
+  return student_quantile(0.975, static_cast<double>(fit.degrees_of_freedom));
 }
 
 FittedCoefficient coefficient_of(const LinearFit& fit, Index k) {
   const double infinite = std::numeric_limits<double>::infinity();
   if (fit.degrees_of_freedom == 0) return {fit.x(k), infinite, infinite};
-  return {fit.x(k), fit.deviation(k),
-          fit.deviation(k) * student_quantile(0.975, static_cast<double>(fit.degrees_of_freedom))};
+  return {fit.x(k), fit.deviation(k), fit.deviation(k) * interval_factor(fit)};
 }
 
 double student_quantile(double share, double n) {

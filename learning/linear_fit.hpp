@@ -15,7 +15,8 @@ struct FittedCoefficient {
 /// The x of least |b − A x|².
 struct LinearFit {
   Eigen::VectorXd x;
-  Eigen::VectorXd deviation;  ///< s √diag((AᵀA)⁻¹), s² = |b − A x|²/degrees_of_freedom; infinite with none
+  Eigen::MatrixXd covariance;  ///< s² (AᵀA)⁻¹, s² = |b − A x|²/degrees_of_freedom; not finite with none
+  Eigen::VectorXd deviation;   ///< the roots of its diagonal
   double residual_square = 0.0;
   double condition = 1.0;  ///< of A with columns of one length; infinite with fewer rows than columns
   Eigen::Index degrees_of_freedom = 0;
@@ -27,6 +28,9 @@ constexpr double largest_condition = 1e8;
 /// By the normal equations of columns of one length, with a step of refinement, which loses nothing up to
 /// largest_condition. Cost O(rows columns²).
 [[nodiscard]] LinearFit linear_fit(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+
+/// Half the interval of 95 % over the standard deviation, by Student's t; infinite without degrees of freedom.
+[[nodiscard]] double interval_factor(const LinearFit& fit);
 
 /// Unknown k of the fit.
 [[nodiscard]] FittedCoefficient coefficient_of(const LinearFit& fit, Eigen::Index k);

@@ -40,14 +40,15 @@ double weighted_scatter(const Eigen::VectorXd& y, const Eigen::VectorXd& weight)
   return weight.dot((y.array() - mean).square().matrix());
 }
 
-/// The probability that each draw gives to chatter at a point.
+/// The probability that each draw gives to chatter at a point; NaN where its margin is not finite.
 Eigen::VectorXd chatter_of(const CutModel& model, const std::vector<Draw>& draws, const milling::OperatingPoint& at) {
   const Eigen::VectorXcd& poles = model.nominal.structure.poles;
   Eigen::VectorXd p(std::ssize(draws));
   for (std::size_t i = 0; i < draws.size(); ++i) {
     const milling::MultiplierSlope mu =
         milling::multiplier_slope(draws[i].cut, {}, Eigen::VectorXd(), at, poles, false);
-    p(static_cast<Index>(i)) = chatter_probability(mu.margin, draws[i].noise);
+    p(static_cast<Index>(i)) = std::isfinite(mu.margin) ? chatter_probability(mu.margin, draws[i].noise)
+                                                        : std::numeric_limits<double>::quiet_NaN();
   }
   return p;
 }
@@ -64,15 +65,21 @@ Eigen::MatrixXd chatter_of_all(const CutModel& model, const std::vector<Draw>& d
   return chatter;
 }
 
-/// A quantity of each draw, for those that have it; the others leave the draws. Throws NumericalError if half do.
-Eigen::VectorXd known_of(std::vector<Draw>& draws, const std::function<std::optional<double>(const Draw&)>& quantity) {
+/// A quantity of every draw, none where it is not known.
+std::vector<std::optional<double>> of_each(const std::vector<Draw>& draws,
+                                           const std::function<std::optional<double>(const Draw&)>& quantity) {
   std::vector<std::optional<double>> values(draws.size());
   core::parallel_for(draws.size(), [&](std::size_t i) { values[i] = quantity(draws[i]); });
+  return values;
+}
+
+/// ln of a positive quantity, for the draws that have it; the others leave the draws. Throws NumericalError if half do.
+Eigen::VectorXd log_of_known(std::vector<Draw>& draws, const std::vector<std::optional<double>>& values) {
   std::vector<Draw> answered;
   std::vector<double> y;
   for (std::size_t i = 0; i < draws.size(); ++i) {
     if (!values[i]) continue;
-    y.push_back(*values[i]);
+    y.push_back(std::log(*values[i]));
     answered.push_back(std::move(draws[i]));
   }
   if (2 * y.size() < values.size())
@@ -92,7 +99,7 @@ std::optional<NextCut> most_telling(const CutModel& model, const std::vector<Dra
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const auto column = static_cast<Index>(i);
     const NextCut cut{candidates[i], chatter.col(column).mean(), before, std::sqrt(after(column))};
-    if (cut.chatter_probability > riskiest_next_cut) continue;
+    if (!(cut.chatter_probability <= riskiest_next_cut) || !std::isfinite(cut.deviation_after)) continue;
     if (!best || cut.deviation_after < best->deviation_after) best = cut;
   }
   return best;
@@ -134,7 +141,7 @@ std::optional<double> best_speed_rpm(const std::vector<double>& speeds_rpm,
   std::optional<double> best;
   double most = 0.0;
   for (std::size_t i = 0; i < speeds_rpm.size(); ++i) {
-    if (!limits_m[i] || speeds_rpm[i] * *limits_m[i] <= most) continue;
+    if (!limits_m[i] || !(speeds_rpm[i] * *limits_m[i] > most)) continue;
     most = speeds_rpm[i] * *limits_m[i];
     best = speeds_rpm[i];
   }
@@ -144,23 +151,33 @@ std::optional<double> best_speed_rpm(const std::vector<double>& speeds_rpm,
 std::optional<NextCut> next_cut(const Calibration& calibration, std::size_t draws, double spindle_speed_rpm,
                                 const std::vector<milling::OperatingPoint>& candidates) {
   std::vector<Draw> taken = draws_for(calibration, draws, candidates);
-  const Eigen::VectorXd y = known_of(taken, [&](const Draw& draw) -> std::optional<double> {
-    const auto limit = limit_at(draw.cut, spindle_speed_rpm, calibration.model.options);
-    return limit ? std::optional(std::log(*limit)) : std::nullopt;
-  });
+  const auto limits = of_each(
+      taken, [&](const Draw& draw) { return limit_at(draw.cut, spindle_speed_rpm, calibration.model.options); });
+  const Eigen::VectorXd y = log_of_known(taken, limits);
   return most_telling(calibration.model, taken, y, candidates);
 }
 
 std::optional<NextCut> next_cut_for_best_speed(const Calibration& calibration, std::size_t draws,
                                                const std::vector<double>& speeds_rpm,
                                                const std::vector<milling::OperatingPoint>& candidates) {
-  std::vector<Draw> taken = draws_for(calibration, draws, candidates);
-  const Eigen::VectorXd y = known_of(taken, [&](const Draw& draw) -> std::optional<double> {
+  const auto best = of_each(draws_for(calibration, draws, candidates), [&](const Draw& draw) {
     std::vector<std::optional<double>> limits;
     for (const double rpm : speeds_rpm) limits.push_back(limit_at(draw.cut, rpm, calibration.model.options));
-    const auto best = best_speed_rpm(speeds_rpm, limits);
-    return best ? std::optional(std::log(*best)) : std::nullopt;
+    return best_speed_rpm(speeds_rpm, limits);
   });
+  return next_cut_for_best_speed(calibration, best, candidates);
+}
+
+std::optional<NextCut> next_cut_for_best_speed(const Calibration& calibration,
+                                               const std::vector<std::optional<double>>& best_rpm,
+                                               const std::vector<milling::OperatingPoint>& candidates) {
+  std::vector<Draw> taken = draws_for(calibration, best_rpm.size(), candidates);
+  if (taken.size() != best_rpm.size()) {
+    throw core::InputError("next cut: " + std::to_string(best_rpm.size()) +
+                           " best speeds, must be at most one for each of " + std::to_string(taken.size()) +
+                           " draws; give fewer");
+  }
+  const Eigen::VectorXd y = log_of_known(taken, best_rpm);
   return most_telling(calibration.model, taken, y, candidates);
 }
 
@@ -174,7 +191,7 @@ std::optional<NextCut> most_productive_cut(const Calibration& calibration, std::
   double most = 0.0;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const double rate = candidates[i].spindle_speed_rpm * candidates[i].depth_m, p = chatter(static_cast<Index>(i));
-    if (p > risk || rate <= most) continue;
+    if (!(p <= risk) || !(rate > most)) continue;
     most = rate;
     best = NextCut{candidates[i], p};
   }

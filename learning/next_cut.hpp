@@ -33,8 +33,9 @@ struct NextCut {
 
 /// The one of the `candidates` that minimises expected_variances() of ln w at the wanted speed over `draws` of the
 /// posterior; a draw that is stable up to the depth limit has its limit there. Candidates of a probability of chatter
-/// above riskiest_next_cut are left out; none if no other is left. Throws InputError without draws or candidates. Cost:
-/// draws times a row and a multiplier for each candidate.
+/// above riskiest_next_cut, or without one, are left out; none if no other is left. Throws InputError without draws or
+/// candidates, NumericalError if most draws have no limit there. Cost: draws times a row and a multiplier for each
+/// candidate.
 [[nodiscard]] std::optional<NextCut> next_cut(const Calibration& calibration, std::size_t draws,
                                               double spindle_speed_rpm,
                                               const std::vector<milling::OperatingPoint>& candidates);
@@ -43,6 +44,12 @@ struct NextCut {
 /// Throws as next_cut(). Cost: draws times a row for each speed and a multiplier for each candidate.
 [[nodiscard]] std::optional<NextCut> next_cut_for_best_speed(const Calibration& calibration, std::size_t draws,
                                                              const std::vector<double>& speeds_rpm,
+                                                             const std::vector<milling::OperatingPoint>& candidates);
+
+/// The same where the best speed of every draw is known, that of cut i of cuts_of_draws(calibration, best_rpm.size())
+/// at i, none where it has no limit. Throws as next_cut(), and InputError for more speeds than draws.
+[[nodiscard]] std::optional<NextCut> next_cut_for_best_speed(const Calibration& calibration,
+                                                             const std::vector<std::optional<double>>& best_rpm,
                                                              const std::vector<milling::OperatingPoint>& candidates);
 
 /// The candidate of the highest removal rate, which is proportional to speed times depth, among those that chatter with

@@ -16,6 +16,9 @@ namespace {
 
 using Eigen::Index;
 
+/// Of small steps that are taken, to which their size adapts.
+constexpr double wanted_share = 0.33;
+
 /// A uniform number in (0, 1), the same on every machine.
 double uniform(std::mt19937& random) {
   return (static_cast<double>(random()) + 0.5) / (static_cast<double>(std::mt19937::max()) + 1.0);
@@ -108,11 +111,12 @@ struct Chain {
     return true;
   }
 
-  /// Steps on the cheap density, every tenth a jump; the share of the others that was taken.
+  /// Steps on the cheap density, each a jump with a probability of one in ten, so that any sequence of them is as
+  /// likely as its reverse, as acceptance needs; the share of the others that was taken.
   double wander(Place& place, int steps) {
     int moved = 0, walked = 0;
-    for (int i = 1; i <= steps; ++i) {
-      if (i % 10 == 0) {
+    for (int i = 0; i < steps; ++i) {
+      if (uniform(random) < 0.1) {
         jump(place);
         continue;
       }
@@ -121,7 +125,7 @@ struct Chain {
     }
     cheap_tried += walked;
     cheap_taken += moved;
-    return static_cast<double>(moved) / walked;
+    return walked > 0 ? static_cast<double>(moved) / walked : wanted_share;
   }
 
   /// A step of random-walk Metropolis on the dear density.
@@ -177,13 +181,13 @@ Chains surrogate_chains(const LogDensity& dear, const LogDensity& cheap, const s
     for (int i = -options.left_out; i < options.draws; ++i) {
       if (i % plain_every == 0) chain.step_dear();
       const double share = chain.advance(options.cheap_steps);
-      if (i < 0) chain.scale *= std::exp(0.5 * (share - 0.33));
+      if (i < 0) chain.scale *= std::exp(0.5 * (share - wanted_share));
       if (i == 0) chain.tried = chain.taken = 0;
       if (i >= 0) result.draws[c].col(i) = chain.at.x;
       progress.step();
     }
     accepted[c] = static_cast<double>(chain.taken) / static_cast<double>(std::max(1L, chain.tried));
-    cheap_accepted[c] = static_cast<double>(chain.cheap_taken) / static_cast<double>(chain.cheap_tried);
+    cheap_accepted[c] = static_cast<double>(chain.cheap_taken) / static_cast<double>(std::max(1L, chain.cheap_tried));
   });
   for (std::size_t c = 0; c < count; ++c) {
     result.accepted += accepted[c] / static_cast<double>(count);

@@ -43,11 +43,12 @@ struct Chains {
 ///
 /// Most of the cheap steps are x + s L ξ, ξ standard normal, L Lᵀ the covariance of a region that is drawn; s, 2.4/√n
 /// at first (Roberts, Gelman & Gilks 1997), adapts in the draws that are left out (Haario et al. 2001 in its simplest
-/// form), to a third of the steps accepted, and stays then. Every tenth is a draw from the normal distributions of the
-/// regions, a little wider, which takes chains from one maximum to another across what lies between (an independence
-/// sampler, Tierney 1994). Chain k begins about region k mod their number, at 1.5 of its deviations; the chains run on
-/// the threads and depend on the seed alone. Throws InputError for options below 1, no region, sizes that differ or a
-/// covariance that is not positive definite. Cost: 1.25 chains × (draws + left_out) of the dear density.
+/// form), to a third of the steps accepted, and stays then. One in ten, at random, is a draw from the normal
+/// distributions of the regions, a little wider, which takes chains from one maximum to another across what lies
+/// between (an independence sampler, Tierney 1994). Chain k begins about region k mod their number, at 1.5 of its
+/// deviations; the chains run on the threads and depend on the seed alone. Throws InputError for options below 1, no
+/// region, sizes that differ or a covariance that is not positive definite. Cost: 1.25 chains × (draws + left_out) of
+/// the dear density.
 [[nodiscard]] Chains surrogate_chains(const LogDensity& dear, const LogDensity& cheap,
                                       const std::vector<Region>& regions, const ChainOptions& options);
 

@@ -83,6 +83,18 @@ milling::Cutter cutter_of(const CoefficientsRequest& request) {
   return cutter;
 }
 
+/// A tool of --tool that can cut what the lines say.
+void require_fitting_tool(const milling::Cutter& cutter, const std::vector<learning::MeanForceTest>& tests) {
+  if (const auto faults = milling::validate(cutter); !faults.empty())
+    throw core::InputError("coefficients: --tool: " + faults.front());
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    if (tests[i].depth_m <= cutter.envelope.height_m) continue;
+    throw core::InputError(fmt::format(
+        "coefficients: cut {} is {:g} mm deep, must be at most the {:g} mm of the tool's length; correct either", i + 1,
+        1e3 * tests[i].depth_m, 1e3 * cutter.envelope.height_m));
+  }
+}
+
 void require_diameter(const milling::Cutter& cutter) {
   if (cutter.diameter_m > 0.0) return;
   throw core::UsageError("--diameter is missing: angles and edges follow by it; give \"10 mm\", or --tool");
@@ -166,7 +178,17 @@ learning::CoefficientFit per_edge_length(learning::CoefficientFit fit, const mil
   return fit;
 }
 
+/// The equations of mean forces hold the chip and the edge of a cylinder.
+void require_cylinder(const milling::Cutter& cutter) {
+  if (learning::is_cylinder(cutter)) return;
+  throw core::InputError(
+      "coefficients: --tool has another end than a cylinder, and mean forces are those of a cylinder; give a tool with "
+      "a "
+      "flat end with which the forces were measured");
+}
+
 std::string mean_force_text(const milling::Cutter& cutter, const std::vector<learning::MeanForceTest>& tests) {
+  require_cylinder(cutter);
   const learning::CoefficientFit fit = per_edge_length(learning::fit_mean_forces(cutter.teeth, tests), cutter);
   return fmt::format("# {} cuts; R2 {:.5f}, residual {:.3g} N, condition {:.3g}\n", tests.size(), fit.r_squared,
                      fit.residual_n, fit.condition) +
@@ -186,11 +208,11 @@ std::string edge_force_text(const milling::Cutter& cutter, const std::vector<lea
   require_diameter(cutter);
   const learning::EdgeForceFit fit = learning::fit_edge_forces(cutter, records);
   if (!fit.converged) {
-    throw core::NumericalError(
-        fmt::format("coefficients: the forces over the angle are not fitted within {} steps (R2 {:.3f}); check that "
-                    "angles are those "
-                    "of the first tooth's tip from the normal, in the direction of rotation",
-                    fit.steps, fit.r_squared));
+    throw core::NumericalError(fmt::format(
+        "coefficients: the search for the runout ends unfinished after {} steps (R2 {:.3f}); with an R2 far "
+        "below 1 check that angles are those of the first tooth's tip from the normal, in the direction of "
+        "rotation, else give more angles or leave out the column of angles",
+        fit.steps, fit.r_squared));
   }
   return fmt::format("# {} cuts, {} degrees of freedom; R2 {:.5f}, residual {:.3g} N, condition {:.3g}\n",
                      records.size(), fit.degrees_of_freedom, fit.r_squared, fit.residual_n, fit.condition) +
@@ -205,6 +227,7 @@ std::string coefficients_of(const CoefficientsRequest& request) {
   const milling::Cutter cutter = cutter_of(request);
   const Source source{request.forces, io::read_csv(request.forces)};
   const std::vector<learning::MeanForceTest> tests = tests_of(source, cutter, request.on);
+  if (!request.tool.empty()) require_fitting_tool(cutter, tests);
   const std::vector<double> angles = source.column("angle", angle_units);
   return angles.empty() ? mean_force_text(cutter, tests)
                         : edge_force_text(cutter, learning::records_of(tests, Eigen::Map<const Eigen::VectorXd>(

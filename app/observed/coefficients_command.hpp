@@ -20,7 +20,8 @@ struct CoefficientsRequest {
 /// radial_depth_mm or _m with milling (up, down). Neighbouring lines of one feed, depth and engagement are one record.
 /// Returns the text for the terminal, with [cutting] and [tool] for a case. Edge coefficients are per length of edge,
 /// which a helix of the tool makes longer than the depth. Throws UsageError for options that cannot be read, DataError
-/// for columns, and as the fits and cases::read_tool().
+/// for columns, InputError for a tool that is no cylinder or shorter than a cut, and as the fits and
+/// cases::read_tool().
 [[nodiscard]] std::string coefficients_of(const CoefficientsRequest& request);
 
 }  // namespace thinwall::app

@@ -111,7 +111,7 @@ ObservedSummary observed_summary(const std::vector<study::JudgedCut>& cuts) {
     with_textbook = with_textbook || cut.textbook_stable;
     if (!cut.right) continue;
     milling::count(prediction, cut.observed, !cut.predicted_stable);
-    milling::count(textbook, cut.observed, !cut.textbook_stable.value_or(false));
+    if (cut.textbook_stable) milling::count(textbook, cut.observed, !*cut.textbook_stable);
     if (!cut.certainty) continue;
     if (!summary.certainty) summary.certainty.emplace();
     count_certainty(cut, *summary.certainty);

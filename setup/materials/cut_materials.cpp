@@ -1,7 +1,10 @@
 #include "setup/materials/cut_materials.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 namespace thinwall::setup {
 
@@ -23,6 +26,18 @@ constexpr std::array<PublishedCut, 6> table{{
      "DOI 10.1186/s10033-021-00536-9, Table 5, reference 47 (temper not printed)"},
 }};
 
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// The standard deviation that the values estimate, of two at least.
+double deviation_of(const std::vector<double>& values) {
+  const double mean = mean_of(values);
+  double squares = 0.0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return std::sqrt(squares / static_cast<double>(values.size() - 1));
+}
+
 }  // namespace
 
 std::span<const PublishedCut> published_cuts() {
@@ -31,19 +46,17 @@ std::span<const PublishedCut> published_cuts() {
 
 std::optional<MaterialCoefficients> coefficients_of(std::string_view material) {
   MaterialCoefficients middle;
-  double tangential = 0.0, radial = 0.0, squares = 0.0;
+  std::vector<double> tangential, radial;
   for (const PublishedCut& cut : table) {
     if (cut.material != material) continue;
-    ++middle.tools;
-    tangential += std::log(cut.K_t);
-    radial += std::log(cut.K_r);
-    squares += std::log(cut.K_t) * std::log(cut.K_t);
+    tangential.push_back(std::log(cut.K_t));
+    radial.push_back(std::log(cut.K_r));
   }
+  middle.tools = static_cast<int>(tangential.size());
   if (middle.tools < 2) return std::nullopt;
-  const double n = middle.tools;
-  middle.K_t = std::exp(tangential / n);
-  middle.K_r = std::exp(radial / n);
-  middle.spread = std::sqrt((squares - tangential * tangential / n) / (n - 1.0));
+  middle.K_t = std::exp(mean_of(tangential));
+  middle.K_r = std::exp(mean_of(radial));
+  middle.spread = std::max(deviation_of(tangential), deviation_of(radial));
   return middle;
 }
 

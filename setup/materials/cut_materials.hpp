@@ -18,8 +18,9 @@ struct PublishedCut {
 /// The table, sorted by material. No entry's source prints the range of chip thickness that was measured.
 [[nodiscard]] std::span<const PublishedCut> published_cuts();
 
-/// The middle of what was published of a material: geometric means, and the standard deviation of ln K_t between tools,
-/// as p₀ and s of an uncertain parameter p₀ e^{s z} (milling/observed/uncertain_cut.hpp).
+/// The middle of what was published of a material: geometric means, and the larger of the standard deviations of
+/// ln K_t and ln K_r between tools, as p₀ and s of an uncertain parameter p₀ e^{s z}
+/// (milling/observed/uncertain_cut.hpp), which has one s for all coefficients.
 struct MaterialCoefficients {
   double K_t = 0.0, K_r = 0.0;  ///< N/m²
   double spread = 0.0;

@@ -49,8 +49,8 @@ double reached_by(const std::vector<double>& ascending, double share) {
   return ascending[std::min(at, ascending.size() - 1)];
 }
 
-std::vector<LearnedChart::Row> limits_of_draws(const setup::LobesOptions& lobes, const learning::Calibration& learned,
-                                               const milling::StabilityOptions& options) {
+std::vector<LimitsAtSpeed> limits_of_draws(const setup::LobesOptions& lobes, const learning::Calibration& learned,
+                                           const milling::StabilityOptions& options) {
   const std::vector<double> speeds = milling::spindle_speeds(lobes.from_rpm, lobes.to_rpm, limit_speeds);
   const std::vector<milling::Cut> cuts = learning::cuts_of_draws(learned, limit_draws);
   std::vector<LimitsAtSpeed> limits(speeds.size());
@@ -61,31 +61,56 @@ std::vector<LearnedChart::Row> limits_of_draws(const setup::LobesOptions& lobes,
     for (const milling::Cut& cut : cuts) limits[i].of_draws.push_back(limit_of(cut));
     progress.step();
   });
-  return answered_rows(limits);
+  return limits;
+}
+
+/// The speed at which each draw removes most.
+std::vector<std::optional<double>> best_speeds(const std::vector<LimitsAtSpeed>& limits) {
+  std::vector<double> speeds;
+  for (const LimitsAtSpeed& at : limits) speeds.push_back(at.spindle_speed_rpm);
+  std::vector<std::optional<double>> best;
+  for (std::size_t draw = 0; draw < limits.front().of_draws.size(); ++draw) {
+    std::vector<std::optional<double>> of_draw;
+    for (const LimitsAtSpeed& at : limits) of_draw.push_back(at.of_draws[draw]);
+    best.push_back(learning::best_speed_rpm(speeds, of_draw));
+  }
+  return best;
+}
+
+void warn_of_missing(const char* cut, double risk) {
+  core::warn(
+      fmt::format("calibration: no {} cut, since every cut of the chart lies beyond [machine] or chatters with "
+                  "a probability above {:g}; look at the limits of [machine]",
+                  cut, risk));
+}
+
+/// The cut to make next for a speed, or for the best one by the limits; a warning where there is none.
+std::optional<learning::NextCut> told_next_cut(const learning::Calibration& learned, std::optional<double> rpm,
+                                               const std::vector<LimitsAtSpeed>& limits,
+                                               const std::vector<milling::OperatingPoint>& candidates) {
+  std::optional<learning::NextCut> next;
+  try {
+    if (!candidates.empty())
+      next = rpm ? learning::next_cut(learned, candidate_draws, *rpm, candidates)
+                 : learning::next_cut_for_best_speed(learned, best_speeds(limits), candidates);
+  } catch (const core::NumericalError& error) {
+    core::warn(fmt::format("calibration: no next cut: {}", error.what()));
+    return std::nullopt;
+  }
+  if (!next) warn_of_missing("next", learning::riskiest_next_cut);
+  return next;
 }
 
 /// The cuts to make next, or a warning where every one is beyond the machine or too likely to chatter.
-void add_next_cuts(LearnedChart& chart, const setup::CutSetup& source,
+void add_next_cuts(LearnedChart& chart, const setup::CutSetup& source, const std::vector<LimitsAtSpeed>& limits,
                    const std::vector<milling::OperatingPoint>& candidates) {
   const setup::Calibration& wanted = *source.calibration;
-  const auto warn_of = [](const char* cut, double risk) {
-    core::warn(
-        fmt::format("calibration: no {} cut, since every cut of the chart lies beyond [machine] or chatters with "
-                    "a probability above {:g}; look at the limits of [machine]",
-                    cut, risk));
-  };
-  const learning::Calibration& learned = chart.calibration;
   chart.next_for_rpm = wanted.spindle_speed_rpm ? wanted.spindle_speed_rpm : source.cutting->spindle_speed_rpm;
-  if (!candidates.empty()) {
-    const std::vector<double> speeds =
-        milling::spindle_speeds(source.lobes->from_rpm, source.lobes->to_rpm, limit_speeds);
-    chart.next = chart.next_for_rpm ? learning::next_cut(learned, candidate_draws, *chart.next_for_rpm, candidates)
-                                    : learning::next_cut_for_best_speed(learned, candidate_draws, speeds, candidates);
-    if (wanted.risk)
-      chart.productive = learning::most_productive_cut(learned, candidate_draws, candidates, *wanted.risk);
-  }
-  if (!chart.next) warn_of("next", learning::riskiest_next_cut);
-  if (wanted.risk && !chart.productive) warn_of("productive", *wanted.risk);
+  chart.next = told_next_cut(chart.calibration, chart.next_for_rpm, limits, candidates);
+  if (!wanted.risk) return;
+  if (!candidates.empty())
+    chart.productive = learning::most_productive_cut(chart.calibration, candidate_draws, candidates, *wanted.risk);
+  if (!chart.productive) warn_of_missing("productive", *wanted.risk);
 }
 
 void tell_of_doubt(const learning::Calibration& learned) {
@@ -154,8 +179,9 @@ LearnedChart learned_chart(const setup::CutSetup& source, const milling::Cut& no
   const Eigen::VectorXd nothing_learned = Eigen::VectorXd::Zero(std::ssize(model.parameters));
   learning::count(chart.before.emplace(), model, learning::predict(model, nothing_learned, false));
   if (wanted.folds) chart.cross_validated = learning::cross_validated(model, *wanted.folds);
-  chart.rows = limits_of_draws(*source.lobes, chart.calibration, options);
-  add_next_cuts(chart, source, candidates_of(source, nominal.process));
+  const std::vector<LimitsAtSpeed> limits = limits_of_draws(*source.lobes, chart.calibration, options);
+  chart.rows = answered_rows(limits);
+  add_next_cuts(chart, source, limits, candidates_of(source, nominal.process));
   return chart;
 }
 

@@ -206,6 +206,23 @@ TEST_F(ObservedCommand, FitsCoefficientsOfMeanForces) {
   EXPECT_NE(singular.err.find("twice the feed per tooth"), std::string::npos) << singular.err;
 }
 
+TEST_F(ObservedCommand, RefusesMeanForcesOfATallCutAndOfABall) {
+  const std::string columns = "feed_per_tooth_mm,depth_mm,force_feed_n,force_normal_n,force_axis_n\n";
+  write("forces.csv", columns + "0.03,2,-20,30,-5\n0.06,2,-35,55,-9\n0.09,2,-50,80,-13\n");
+  const auto refused = [&](const std::string& tool) {
+    write("tool.toml", "[tool]\nteeth = 2\ndiameter = \"10 mm\"\n" + tool);
+    const Outcome done = command({"coefficients", path("forces.csv"), "--tool", path("tool.toml")});
+    EXPECT_EQ(done.code, 3) << done.out;
+    return done.err;
+  };
+  const std::string length = "length = \"20 mm\"\n";
+  for (const std::string end : {"end = \"ball\"\n", "end = \"bull_nose\"\ncorner_radius = \"2 mm\"\n"})
+    EXPECT_NE(refused(length + end).find("mean forces are those of a cylinder"), std::string::npos) << end;
+  EXPECT_NE(refused("length = \"1 mm\"\n").find("2 mm deep, must be at most the 1 mm"), std::string::npos);
+  const std::string runout = "runout = [\"9 mm\", \"-9 mm\"]\n";
+  EXPECT_NE(refused(length + runout).find("runout"), std::string::npos);
+}
+
 TEST_F(ObservedCommand, FitsForcesOverTheAngleWithTheRunoutOfATool) {
   const milling::CuttingCoefficients truth{7.5e8, 2.4e8, -1.1e8, 18e3, 22e3, 3e3};
   write("tool.toml", "[tool]\nteeth = 2\ndiameter = \"10 mm\"\nlength = \"20 mm\"\nhelices = [\"30 deg\"]\n");

@@ -7,26 +7,30 @@
 #include <string>
 
 #include "case/checks/doubts.hpp"
+#include "case/material_values.hpp"
 #include "case/problem.hpp"
 #include "case/reader.hpp"
 #include "case/schema/schema.hpp"
+#include "case/toml_values.hpp"
 #include "case/writer.hpp"
 #include "setup/materials/cut_materials.hpp"
 
 namespace thinwall::cases::cut_material_test {
 namespace {
 
-Case case_with(const std::string& cutting, const std::string& lobes = "") {
-  return parse_case(R"([tool]
-teeth = 2
-diameter = "10 mm"
-length = "5 mm"
-[[tool.modes]]
+const std::string one_mode = R"([[tool.modes]]
 frequency = "922 Hz"
 damping_ratio = 0.03
 stiffness = "1.34e6 N/m"
 direction = "x"
-[cutting]
+)";
+
+Case case_with(const std::string& cutting, const std::string& lobes = "", const std::string& tip = one_mode) {
+  return parse_case(R"([tool]
+teeth = 2
+diameter = "10 mm"
+length = "5 mm"
+)" + tip + R"([cutting]
 radial_depth = "5 mm"
 feed_direction = "x"
 tool_axis = "z"
@@ -43,6 +47,8 @@ TEST(CutMaterial, HasTheMiddleAndTheSpreadOfItsTools) {
   EXPECT_NEAR(middle.K_r, std::sqrt(113.5e6 * 52e6), 1.0);
   EXPECT_NEAR(middle.spread, std::log(880.0 / 243.77) / std::sqrt(2.0), 1e-12);
   EXPECT_FALSE(setup::coefficients_of("unobtainium"));
+  // That of ln K_t is 0.334 and that of ln K_r 0.713, by hand: one spread stands for both coefficients.
+  EXPECT_NEAR(setup::coefficients_of("Al7075-T6")->spread, 0.7126, 1e-4);
 }
 
 TEST(CutMaterial, HasASourceForEveryValueAndIsAChoiceOfTheCase) {
@@ -73,6 +79,41 @@ TEST(CutMaterial, FillsInCoefficientsAndTheirSpread) {
   const Case again = parse_case(resolved_text(source), ".");
   EXPECT_EQ(again.cutting->Kt, source.cutting->Kt);
   EXPECT_EQ(again.lobes->robust->uncertainty.coefficients, middle.spread);
+}
+
+/// What is told of cutting.material.
+std::string told_of(const Case& source) {
+  for (const std::string& doubt : doubts_about(source))
+    if (doubt.starts_with("cutting.material")) return doubt;
+  return "";
+}
+
+TEST(CutMaterial, TellsWhatWasFilledInAndWhatTheChartTakes) {
+  const std::string material = "material = \"Al7075-T6\"";
+  EXPECT_NE(told_of(case_with(material)).find("71 %, which the robust chart takes"), std::string::npos);
+  EXPECT_EQ(told_of(case_with(material, "method = \"zeroth_order\"\n")).find("robust chart"), std::string::npos);
+  const std::string own = told_of(case_with(material, "[lobes.uncertainty]\ncoefficients = 0.05\n"));
+  EXPECT_NE(own.find("though the robust chart takes 5 %"), std::string::npos) << own;
+  // A Kt of one's own has an uncertainty of one's own.
+  const Case known = case_with(material + "\nKt = \"700 N/mm^2\"");
+  EXPECT_FALSE(known.lobes->robust);
+  EXPECT_NE(told_of(known).find("Kr 282 MPa is the middle"), std::string::npos) << told_of(known);
+  EXPECT_EQ(told_of(known).find("%"), std::string::npos) << told_of(known);
+  EXPECT_EQ(told_of(case_with(material + "\nKt = \"700 N/mm^2\"\nKr = \"200 N/mm^2\"")), "");
+}
+
+TEST(CutMaterial, HandsNoSpreadToAChartOfMeasuredLines) {
+  const auto is_robust = [](const std::string& fit) {
+    const std::string text = "[tool]\n" + fit + "[[tool.measured]]\nresponse = \"x\"\nforce = \"x\"\n" +
+                             "[cutting]\nmaterial = \"Al7075-T6\"\n[lobes]\nfrom = \"9000 rpm\"\n";
+    CaseValues values = read_values(text, "case.toml", case_schema()).values;
+    fill_in_material(values);
+    EXPECT_TRUE(find(values, "cutting.Kt"));
+    return has_table(values, "lobes.uncertainty");
+  };
+  EXPECT_FALSE(is_robust(""));
+  EXPECT_FALSE(is_robust("fit = false\n"));
+  EXPECT_TRUE(is_robust("fit = true\n"));
 }
 
 TEST(CutMaterial, LeavesWhatIsGiven) {

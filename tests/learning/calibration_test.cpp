@@ -208,6 +208,30 @@ TEST(InterpolatedCuts, AreThePredictionAtTheirPlacesAndNearItBetween) {
   EXPECT_THROW(InterpolatedCuts(machine.model, {places.begin(), places.begin() + 44}), core::InputError);
 }
 
+TEST(NextCut, LeavesOutCandidatesWhoseProbabilityIsNotANumber) {
+  const Machine machine = drawn_machine(4, 3);
+  Calibration learned;
+  learned.model = machine.model;
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  learned.draws = {Eigen::VectorXd::Zero(9), Eigen::VectorXd::Constant(9, 0.1)};
+  learned.draws[1](8) = unknown;  // the noise, and with it the probability of this draw
+  const std::vector<milling::OperatingPoint> shallow{{9000.0, 1e-6}, {9500.0, 1e-6}};
+  EXPECT_FALSE(most_productive_cut(learned, 2, shallow, 0.1));
+  EXPECT_FALSE(next_cut_for_best_speed(learned, {9000.0, 9500.0}, shallow));
+  EXPECT_EQ(best_speed_rpm({1.0, 2.0}, {unknown, 1e-3}), 2.0);
+}
+
+TEST(NextCut, TellsThatMostDrawsHaveNoBestSpeed) {
+  Calibration learned;
+  learned.model = drawn_machine(4, 3).model;
+  learned.draws = {Eigen::VectorXd::Zero(9), Eigen::VectorXd::Constant(9, 0.1), Eigen::VectorXd::Constant(9, 0.2)};
+  const std::vector<milling::OperatingPoint> candidates{{9000.0, 1e-3}};
+  EXPECT_THROW((void)next_cut_for_best_speed(learned, {9000.0, std::nullopt, std::nullopt}, candidates),
+               core::NumericalError);
+  EXPECT_THROW((void)next_cut_for_best_speed(learned, std::vector<std::optional<double>>(4, 9000.0), candidates),
+               core::InputError);
+}
+
 TEST(NextCut, LeavesOutRowsWithoutAnAnswer) {
   milling::LobeRow row;
   row.limiting_depth_m = 1e-3;
