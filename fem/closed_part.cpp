@@ -27,6 +27,7 @@ constexpr double volume_of_chords = 0.08;         // by which straight elements 
 constexpr double deviation_of_chords = 0.2;       // of the wall thickness, likewise
 constexpr double roundest = 1.4;                  // circumradius over shortest edge of elements that need not be flat
 constexpr double most_of_round_body = 4000.0;     // triangles
+constexpr double most_off_of_round_body = 0.02;   // by volume, which its estimate tells
 constexpr double sharp_rad = 0.5235987755982988;  // 30°
 
 void validate(const ClosedPartOptions& o) {
@@ -91,16 +92,15 @@ std::vector<mesh::SurfaceMeshOptions> attempts_with_chords(const mesh::SurfaceMe
   first.volume_tolerance = volume_of_chords;
   first.radius_edge_ratio = roundest;
   first.size.deviation = deviation_of_chords;
-  std::vector<mesh::SurfaceMeshOptions> result(size_of_round > 0.0 ? 4 : 3, first);
+  std::vector<mesh::SurfaceMeshOptions> result{first};
   if (size_of_round > 0.0) {
-    result[1].size.size_m = size_of_round;
-    result[1].size.turn_rad *= 1.4;
+    result.push_back(first);
+    result.back().size.size_m = size_of_round;
+    result.back().size.turn_rad *= 1.4;
   }
-  for (std::size_t k = 2; k > 0; --k) {  // of the last two
-    mesh::SurfaceSize& size = result[result.size() - k].size;
-    size.deviation *= std::pow(0.5, 3 - static_cast<int>(k));
-    size.turn_rad *= std::pow(0.7, 3 - static_cast<int>(k));
-  }
+  result.push_back(first);
+  result.back().size.deviation *= 0.5;
+  result.back().size.turn_rad *= 0.7;
   return result;
 }
 
@@ -124,13 +124,15 @@ FirstMesh straight_mesh(const mesh::TriangleSurface& surface, const ClosedPartOp
   return {options.divided ? options.divided(std::move(result.mesh)) : std::move(result.mesh), std::move(fit)};
 }
 
-/// The mesh of a level with curved elements, with shorter chords until its volume keeps its share of the tolerance; the
-/// best one if none does. Empty if none keeps five times that share, or no mesher succeeds.
+/// The mesh of a level with curved elements whose volume keeps its share of the tolerance. If no attempt does, the best
+/// one for a round body, which straight elements would follow by very many, and otherwise none. Empty, too, if no
+/// mesher succeeds.
 std::optional<FirstMesh> curved_mesh(const mesh::TriangleSurface& surface, const mesh::SmoothPatches& patches,
                                      const ClosedPartOptions& options, int level) {
   const double wanted = mesh::volume(surface), bound = share_of_surface * options.tolerance;
+  const double size_of_round = size_of_round_body(surface);
   std::optional<FirstMesh> best;
-  for (const auto& attempt : attempts_with_chords(mesh_options(surface, options, level), size_of_round_body(surface))) {
+  for (const auto& attempt : attempts_with_chords(mesh_options(surface, options, level), size_of_round)) {
     try {
       auto meshers = mesh::volume_meshers(surface, attempt);
       meshers.pop_back();  // isotropic elements of thin walls would be too many
@@ -147,7 +149,8 @@ std::optional<FirstMesh> curved_mesh(const mesh::TriangleSurface& surface, const
       core::check_interrupt();
     }
   }
-  if (best && std::abs(best->fit.volume_error_relative) > 5.0 * bound) best.reset();
+  const double most = size_of_round > 0.0 ? most_off_of_round_body : bound;
+  if (best && std::abs(best->fit.volume_error_relative) > most) best.reset();
   return best;
 }
 

@@ -76,9 +76,9 @@ struct [[nodiscard]] ClosedPart {
 /// by 1.5^level, `level` graded layers beside sharp edges (one more if a support ends within a face) and a turning
 /// angle of 0.5 / 2^level rad along an edge. Elements of a part of one material follow curved patches of the surface by
 /// their shape (curved_onto()): their chords may lie a fifth of the wall off it. Until the volume is right to 0.2 ·
-/// tolerance, a body that is round rather than thin gets isotropic elements, and then the distance of chords is halved,
-/// twice at most, and their turning angle made 0.7 times as large. Where that fails, and with several
-/// materials, elements are straight, and the turning angle is as small as the volume requires. If a finer level cannot
+/// tolerance, a body that is round rather than thin gets isotropic elements, and then chords are half as far off and
+/// turn 0.7 times as far. Where that fails, and with several materials, elements are straight, and the turning angle is
+/// as small as the volume requires; of a round body the best curved mesh is taken. If a finer level cannot
 /// be meshed, straight elements of the first level made 0.7^level times as large are used instead. Each mesh is
 /// appended to `meshes`, which must outlive the part, as must `surface` and `options`.
 [[nodiscard]] SolidPart solid_part(const mesh::TriangleSurface& surface, const Material& material,

@@ -63,7 +63,7 @@ TEST(CurvedBoundary, CubicElementsHaveTheVolumeOfATorusThatTheirChordsMiss) {
   EXPECT_LT(mesh::volume(mesh) / wanted, 0.98);
   const auto shape = std::make_shared<const CubicShape>(curved_onto(patches, mesh));
   EXPECT_NEAR(shape->volume_m3 / mesh::volume(surface), 1.0, 2e-3);
-  for (const int order : {3, 4, 5}) {  // cubic, whatever the order
+  for (const int order : {3, 4}) {  // cubic, whatever the order
     const Model model = supported_model(mesh, order, steel, {}, shaping_by(shape));
     EXPECT_NEAR(model.mass.mass_kg / (7850.0 * shape->volume_m3), 1.0, 1e-9) << order;
     EXPECT_GE(model.least_jacobian, 0.1) << order;
