@@ -74,68 +74,86 @@ nlohmann::json records(const std::vector<io::FileRecord>& files) {
   return list;
 }
 
+/// The finite-element model: shapes of its modes, its walls and its matrices.
+void add_models(FileTasks& files, const fs::path& folder, const setup::Setup& source, const study::Results& results) {
+  if (!results.finite_elements) return;
+  write_shapes(files, folder / "modes", source, results);
+  if (const auto& imported = source.part->imported; imported && imported->surface) {
+    files.emplace_back([&surface = imported->surface->surface, path = folder / "modes" / "wall_thickness.vtp"] {
+      write_wall_thickness(path, surface);
+    });
+  }
+  if (results.finite_elements->damped)
+    files.emplace_back(
+        [&, folder] { io::write_mat(folder / "models" / "part.mat", *results.finite_elements->damped); });
+}
+
+/// The receptances of part, robot and both, on the axis of the case and on the lines that were added at resonances.
+void add_responses(FileTasks& files, const fs::path& folder, const std::vector<std::string>& points,
+                   const study::Results& results) {
+  const auto add = [&](const std::string& name, const dynamics::ResponseModel& response) {
+    files.emplace_back([&, folder, name] { write_frf(folder, name, at_points(response, points)); });
+  };
+  if (results.part) add("part", results.part->response);
+  if (results.coupled) {
+    add("coupled_receptance", results.coupled->receptance.response);
+    if (results.coupled->spatial_response) add("coupled_spatial", *results.coupled->spatial_response);
+  }
+  if (results.robot) files.emplace_back([&, folder] { write_frf(folder, "robot", results.robot->response); });
+  const auto add_lines = [&](const std::string& name, const std::optional<dynamics::ResponseModel>& lines) {
+    if (!lines) return;
+    files.emplace_back(
+        [&, path = folder / (name + "_added.csv")] { io::write_response(path, at_points(*lines, points)); });
+  };
+  add_lines("part", results.added.part);
+  add_lines("coupled_receptance", results.added.coupled);
+  add_lines("coupled_spatial", results.added.coupled_spatial);
+  if (const auto& lines = results.added.robot)
+    files.emplace_back([&, folder] { io::write_response(folder / "robot_added.csv", *lines); });
+}
+
+/// The parts of the receptances' errors that are known by line.
+void add_errors(FileTasks& files, const fs::path& folder, const std::vector<std::string>& points,
+                const study::Results& results) {
+  const auto add = [&](const std::string& name, const dynamics::ResponseModel& response,
+                       const study::ResponseErrors& errors) {
+    if (errors.noise.empty() && errors.truncation.empty()) return;
+    files.emplace_back(
+        [&, path = folder / (name + "_error.csv")] { write_response_errors(path, response, errors, points); });
+  };
+  if (results.part) add("part", results.part->response, results.errors.part);
+  if (results.robot) add("robot", results.robot->response, results.errors.robot);
+  if (results.coupled) add("coupled", results.coupled->receptance.response, results.errors.coupled);
+}
+
+/// Files of measurements: the coherence of FRFs, and the FRF that the damping was taken from beside the model's.
+void add_measured(FileTasks& files, const fs::path& folder, const setup::Setup& source, const study::Results& results) {
+  const auto add_coherence = [&](const std::string& name, const dynamics::ResponseModel& response,
+                                 const std::vector<setup::MeasuredFrf>& measured) {
+    files.emplace_back(
+        [&, path = folder / (name + "_coherence.csv")] { write_coherence(path, measured, response.axis); });
+  };
+  const auto* damping = std::get_if<setup::ModalDamping>(&source.damping);
+  if (damping != nullptr && damping->from_frf && results.part && results.part->modal) {
+    files.emplace_back([&, damping, path = folder / "part_damping.csv"] {
+      write_damping_frf(path, *damping->from_frf, *results.part->modal);
+    });
+  }
+  if (results.part) add_coherence("part", results.part->response, source.measured_part);
+  const auto* robot = source.robot ? std::get_if<setup::MeasuredRobot>(&source.robot->model) : nullptr;
+  if (results.robot && robot != nullptr) add_coherence("robot", results.robot->response, robot->measured);
+}
+
 }  // namespace
 
 void write_structure(const fs::path& folder, const setup::Setup& source, const study::Results& results) {
   constexpr std::array subfolders{"modes", "frf", "robot", "models"};
   for (const char* name : subfolders) fs::create_directories(folder / name);
   FileTasks files;
-  if (results.finite_elements) {
-    write_shapes(files, folder / "modes", source, results);
-    if (const auto& imported = source.part->imported; imported && imported->surface) {
-      files.emplace_back([&surface = imported->surface->surface, path = folder / "modes" / "wall_thickness.vtp"] {
-        write_wall_thickness(path, surface);
-      });
-    }
-  }
-  if (results.finite_elements && results.finite_elements->damped)
-    files.emplace_back([&] { io::write_mat(folder / "models" / "part.mat", *results.finite_elements->damped); });
-  const auto add_frf = [&](const std::string& name, const dynamics::ResponseModel& response) {
-    files.emplace_back([&, name] { write_frf(folder / "frf", name, at_points(response, source.response.points)); });
-  };
-  if (results.part) add_frf("part", results.part->response);
-  if (results.coupled) {
-    add_frf("coupled_receptance", results.coupled->receptance.response);
-    if (results.coupled->spatial_response) add_frf("coupled_spatial", *results.coupled->spatial_response);
-  }
-  const auto add_lines = [&](const std::string& name, const std::optional<dynamics::ResponseModel>& lines) {
-    if (!lines) return;
-    files.emplace_back([&, name] {
-      io::write_response(folder / "frf" / (name + "_added.csv"), at_points(*lines, source.response.points));
-    });
-  };
-  add_lines("part", results.added.part);
-  add_lines("coupled_receptance", results.added.coupled);
-  add_lines("coupled_spatial", results.added.coupled_spatial);
-  const auto add_errors = [&](const std::string& name, const dynamics::ResponseModel& response,
-                              const study::ResponseErrors& errors) {
-    if (errors.noise.empty() && errors.truncation.empty()) return;
-    files.emplace_back([&, name] {
-      write_response_errors(folder / "frf" / (name + "_error.csv"), response, errors, source.response.points);
-    });
-  };
-  if (results.part) add_errors("part", results.part->response, results.errors.part);
-  if (results.robot) add_errors("robot", results.robot->response, results.errors.robot);
-  if (results.coupled) add_errors("coupled", results.coupled->receptance.response, results.errors.coupled);
-  const auto add_coherence = [&](const std::string& name, const dynamics::ResponseModel& response,
-                                 const std::vector<setup::MeasuredFrf>& measured) {
-    files.emplace_back(
-        [&, name] { write_coherence(folder / "frf" / (name + "_coherence.csv"), measured, response.axis); });
-  };
-  const auto* damping = std::get_if<setup::ModalDamping>(&source.damping);
-  if (damping != nullptr && damping->from_frf && results.part && results.part->modal) {
-    files.emplace_back([&, damping] {
-      write_damping_frf(folder / "frf" / "part_damping.csv", *damping->from_frf, *results.part->modal);
-    });
-  }
-  if (results.part) add_coherence("part", results.part->response, source.measured_part);
-  if (results.robot) {
-    if (const auto* robot = std::get_if<setup::MeasuredRobot>(&source.robot->model))
-      add_coherence("robot", results.robot->response, robot->measured);
-  }
-  if (results.robot) files.emplace_back([&] { write_frf(folder / "frf", "robot", results.robot->response); });
-  if (const auto& lines = results.added.robot)
-    files.emplace_back([&] { io::write_response(folder / "frf" / "robot_added.csv", *lines); });
+  add_models(files, folder, source, results);
+  add_responses(files, folder / "frf", source.response.points, results);
+  add_errors(files, folder / "frf", source.response.points, results);
+  add_measured(files, folder / "frf", source, results);
   if (results.survey) files.emplace_back([&] { write_survey(folder, source, *results.survey); });
   const std::size_t done = files.empty() ? 0 : 1;
   if (done > 0) files.front()();  // alone: VTK's first objects set up what all share
