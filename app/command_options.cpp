@@ -175,7 +175,8 @@ void describe_inspect(CLI::App& app, Arguments& arguments) {
                     ->type_name("FILE");
   command
       ->add_option("--stiffness", files.stiffness,
-                   "K in place of MODEL: Matrix Market, .sti of CalculiX, Abaqus, DMIG, OP4, MAT (docs/matrices.md)")
+                   "K in place of MODEL: Matrix Market, .sti of CalculiX, Abaqus, DMIG, OP2, OP4, MAT, NetCDF "
+                   "(docs/matrices.md)")
       ->type_name("FILE")
       ->excludes(model);
   command->add_option("--mass", files.mass, "M, where it is in a file of its own")->type_name("FILE");

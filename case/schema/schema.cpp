@@ -25,7 +25,7 @@ constexpr Key case_keys[] = {
     Key{"part.file", Type::file, kind::number, "", any, "", "Surface of the part: `.stl`, `.off`, `.obj`, `.ply`, `.3mf`, `.glb`, `.gltf`, `.step`; or its mesh: `.msh`, `.inp`, `.vtu`."},
     Key{"part.unit", Type::text, kind::number, "", any, "", "Unit of length in the file or the matrices: `mm`, `m`, `inch` … They do not tell it; a STEP file does."},
     Key{"part.mass_unit", Type::text, kind::number, "", any, "", "Unit of mass of matrices, and of the materials in a mesh: `t` beside mm, N, MPa; `kg` beside m, N, Pa."},
-    Key{"part.matrices.stiffness", Type::file, kind::number, "", any, "", "K: Matrix Market, `.sti` of CalculiX, Abaqus, DMIG, OP4, MAT.", required},
+    Key{"part.matrices.stiffness", Type::file, kind::number, "", any, "", "K: Matrix Market, `.sti` of CalculiX, Abaqus, DMIG, OP2, OP4, MAT, NetCDF.", required},
     Key{"part.matrices.mass", Type::file, kind::number, "", any, "", "M, where it is in a file of its own."},
     Key{"part.matrices.damping", Type::file, kind::number, "", any, "", "C, likewise; used with `damping.model = \"matrices\"`."},
     Key{"part.matrices.dofs", Type::file, kind::number, "", any, "", "Which row is which: `.dof` of CalculiX, or a CSV with row, node, component."},

@@ -15,8 +15,10 @@
 #include "io/matrices/matrix_format.hpp"
 #include "io/matrices/matrix_market.hpp"
 #include "io/matrices/matrix_triplets.hpp"
+#include "io/matrices/netcdf.hpp"
 #include "io/matrices/op2.hpp"
 #include "io/matrices/op4.hpp"
+#include "io/matrices/superelement.hpp"
 #include "io/surface_text.hpp"
 
 namespace thinwall::io {
@@ -26,7 +28,7 @@ namespace {
 using dynamics::NodeDof;
 using dynamics::SparseModel;
 
-enum class Format { mat, matrix_market, dmig, op2, op4, labelled, triplets };
+enum class Format { mat, matrix_market, dmig, netcdf, op2, op4, labelled, triplets };
 
 const char* name_of(Format format) {
   switch (format) {
@@ -36,6 +38,8 @@ const char* name_of(Format format) {
       return "Matrix Market";
     case Format::dmig:
       return "Nastran DMIG";
+    case Format::netcdf:
+      return "NetCDF superelement";
     case Format::op2:
       return "Nastran OP2";
     case Format::op4:
@@ -56,6 +60,11 @@ bool has_dmig(std::string_view bytes) {
 }
 
 Format format_of(std::string_view bytes, const std::string& path) {
+  if (is_netcdf4(bytes)) {
+    throw core::DataError(path +
+                          ": is NetCDF-4 (HDF5); write it in the classic format, by nccopy -k 64-bit-offset IN OUT");
+  }
+  if (is_netcdf(bytes)) return Format::netcdf;
   if (mat_version(bytes) != MatVersion::none) return Format::mat;
   if (is_matrix_market(bytes)) return Format::matrix_market;
   if (is_op2(bytes)) return Format::op2;
@@ -70,7 +79,7 @@ Format format_of(std::string_view bytes, const std::string& path) {
   throw core::DataError(
       path +
       ": is no matrix that is known: Matrix Market (%%MatrixMarket), CalculiX .sti or .mas and Abaqus "
-      ".mtx (lines of three or five numbers), Nastran DMIG, OP2 and OP4, MAT");
+      ".mtx (lines of three or five numbers), Nastran DMIG, OP2 and OP4, MAT, NetCDF superelements");
 }
 
 /// The three matrices of the files, by row or by label; a matrix that is not given has no path.
@@ -79,6 +88,7 @@ struct Matrices {
   std::array<MatrixEntries, 3> rows;
   std::array<LabelledEntries, 3> labelled;
   std::map<int, Eigen::Vector3d> positions;
+  SparseModel superelement;
   [[nodiscard]] bool by_label() const { return format == Format::dmig || format == Format::labelled; }
 };
 
@@ -120,6 +130,13 @@ void take_nastran(const std::vector<NastranMatrix>& file, const std::string& pat
   });
 }
 
+/// Takes a file that contains all matrices and their DOFs.
+void take_superelement(const std::string& bytes, const std::string& path, std::size_t which, Matrices& matrices) {
+  if (which != 0)
+    throw core::DataError(path + ": a NetCDF superelement holds all matrices: state it as the stiffness alone");
+  matrices.superelement = read_superelement(bytes, path);
+}
+
 Matrices take_files(const MatrixFiles& files) {
   Matrices matrices;
   const std::array paths{files.stiffness, files.mass, files.damping};
@@ -137,6 +154,7 @@ Matrices take_files(const MatrixFiles& files) {
     if (format == Format::triplets) matrices.rows[k] = triplet_entries(bytes, path);
     if (format == Format::labelled) matrices.labelled[k] = labelled_triplets(bytes, path);
     if (format == Format::dmig) take_dmig(bytes, path, files, k, matrices);
+    if (format == Format::netcdf) take_superelement(bytes, path, k, matrices);
     if (format == Format::op2) take_nastran(read_op2(bytes, path), path, files, k, matrices);
     if (format == Format::op4) take_nastran(read_op4(bytes, path), path, files, k, matrices);
   }
@@ -251,7 +269,8 @@ void require_each_once(const std::vector<NodeDof>& dofs, const std::filesystem::
 
 bool may_hold_several_matrices(const std::filesystem::path& path) {
   const Format format = format_of(core::read_file(path), path.string());
-  return format == Format::mat || format == Format::dmig || format == Format::op2 || format == Format::op4;
+  return format == Format::mat || format == Format::dmig || format == Format::netcdf || format == Format::op2 ||
+         format == Format::op4;
 }
 
 std::filesystem::path dof_table_path(const MatrixFiles& files) {
@@ -269,8 +288,10 @@ ImportedMatrices read_matrices(const MatrixFiles& files) {
   imported.format = name_of(matrices.format);
   const std::optional<DofTableFile> table = table_of(dof_table_path(files));
   if (table) require_each_once(table->dofs, dof_table_path(files));
-  if (matrices.format == Format::mat) {
-    imported.model = read_sparse_mat(MatFiles{files.stiffness, files.mass, files.damping});
+  const bool is_mat = matrices.format == Format::mat;
+  if (is_mat || matrices.format == Format::netcdf) {
+    imported.model = is_mat ? read_sparse_mat(MatFiles{files.stiffness, files.mass, files.damping})
+                            : std::move(matrices.superelement);
     if (table) imported.model.dofs = table->dofs;
   } else {
     imported.model = model_of_text(files, matrices, table, imported.notes);

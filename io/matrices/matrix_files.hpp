@@ -10,11 +10,11 @@
 namespace thinwall::io {
 
 /// The files of a component. The format of each is recognised from its contents: Matrix Market, CalculiX MATRIXSTORAGE,
-/// Abaqus *MATRIX OUTPUT, Nastran DMIG and OP4, MAT.
+/// Abaqus *MATRIX OUTPUT, Nastran DMIG, OP2 and OP4, MAT, superelements in NetCDF.
 struct MatrixFiles {
   std::filesystem::path stiffness;
-  std::filesystem::path mass{};     ///< empty: in the file of the stiffness (DMIG, OP4, MAT)
-  std::filesystem::path damping{};  ///< empty: none, or in the file of the stiffness (DMIG, OP4, MAT)
+  std::filesystem::path mass{};     ///< empty: in the file of the stiffness (DMIG, OP2, OP4, MAT, NetCDF)
+  std::filesystem::path damping{};  ///< empty: none, or in the file of the stiffness (DMIG, OP2, OP4, MAT, NetCDF)
   std::filesystem::path dofs{};  ///< .dof of CalculiX or io/matrices/dof_table_csv.hpp; empty: job.dof beside job.sti
   std::filesystem::path positions{};  ///< io/matrices/dof_table_csv.hpp; empty: positions of the other files
   std::string length_unit{};          ///< unit of length, such as "mm", which must be given

@@ -20,6 +20,7 @@
 #include "io/matrices/matrix_triplets.hpp"
 #include "io/matrices/op2.hpp"
 #include "io/matrices/op4.hpp"
+#include "io/matrices/superelement.hpp"
 #include "tests/processor_time.hpp"
 
 namespace thinwall::io::test::matrix_robustness_test {
@@ -63,6 +64,7 @@ const std::vector<Format>& formats() {
          for (const NastranMatrix& matrix : read_op2(bytes, "x"))
            assemble(MatrixEntries{"x", matrix.rows, matrix.entries, matrix.form == 6});
        }},
+      {"superelement", [](std::string_view bytes) { (void)read_superelement(bytes, "x"); }},
       {"mat4", [](std::string_view bytes) {
          (void)mat4_variables(bytes, {"K", "M", "dof_node"}, "x");
        }}};
