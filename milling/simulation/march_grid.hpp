@@ -43,7 +43,8 @@ struct CutPoint {
   double edge_share = 1.0;          ///< length of edge over width of cut, dS/db
   int disc = 0;
   int tooth = 0;
-  int first_past = 0, pasts = 1;  ///< of MarchGrid::pasts
+  bool at_rim = false;            ///< where the disc enters or leaves: neither in contact nor without
+  int first_past = 0, pasts = 1;  ///< of MarchGrid::pasts; of several, the first two lie on either side of the moment
 };
 
 /// Steps of equal length between moments at which a disc of a tooth enters or leaves the cut. A step has three nodes:

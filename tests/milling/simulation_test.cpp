@@ -158,7 +158,10 @@ TEST(StableCut, MovesAsInClosedForm) {
     EXPECT_LE((cut.passes.back().entry_m - forced.displacement_m.col(0)).norm(), 1e-9 * size) << p.rpm;
     EXPECT_LE((cut.mean_force_n - forced.mean_force_n).norm(), 1e-9 * forced.mean_force_n.norm()) << p.rpm;
     EXPECT_NEAR(cut.mean_power_w, forced.mean_power_w, 1e-9 * forced.mean_power_w) << p.rpm;
-    EXPECT_NEAR(cut.displacement_m.range().x(), forced.peak_to_peak_m.x(), 1e-5 * size) << p.rpm;
+    EXPECT_NEAR(cut.displacement_m.range().x(), forced.peak_to_peak_m.x(), 1e-9 * size) << p.rpm;
+    EXPECT_NEAR(cut.displacement_m.range().y(), forced.peak_to_peak_m.y(), 1e-9 * size) << p.rpm;
+    // Chips end at zero where a tooth leaves: no contact is lost there.
+    EXPECT_EQ(cut.share_without_contact, 0.0) << p.rpm;
     // The wall of down-milling lies at −y: +y leaves material there.
     EXPECT_NEAR(cut.passes.back().exit_m.y(), -*forced.surface_location_error_m, 1e-4 * size) << p.rpm;
   }
