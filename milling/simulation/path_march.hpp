@@ -24,6 +24,7 @@ struct DiscRay {
   double sine = 0.0, cosine = 0.0;  ///< of φ
   bool found = false;               ///< the material was looked for, and lies on the ray
   bool in_cut = false;              ///< the ray crosses the stock, which earlier teeth may have taken away
+  bool lost = false;                ///< the surface may be another one than that which was found
   double farthest_m = 0.0;          ///< from the centre up to the surface
   Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< the centre from which it was found
 
@@ -99,6 +100,7 @@ class PathMotion {
   template <class Observer>
   long over_period(Observer& see) {
     long unsettled = 0;
+    surfaces_lost_ = 0;
     for (int i = 0; i < c_.steps_a_turn; ++i) {
       step_.from_rad = i * step_.step_rad;
       unsettled += over_step();
@@ -108,6 +110,9 @@ class PathMotion {
     }
     return unsettled;
   }
+
+  /// Nodes of the last period at which the surface before a tooth was not known.
+  [[nodiscard]] long surfaces_lost() const { return surfaces_lost_; }
 
   /// False once the vibration has outgrown the radius.
   [[nodiscard]] bool within(double radius_m) const { return tool_.within(radius_m); }
@@ -160,6 +165,8 @@ class PathMotion {
     turn_to(1);
     turn_to(2);
     const int unsettled = tool_.over_step(step_, [&](std::size_t c, MarchNode& at) { load(c, at); });
+    for (const std::size_t c : {std::size_t{1}, std::size_t{2}})
+      surfaces_lost_ += std::any_of(rays_[c].begin(), rays_[c].end(), [](const DiscRay& ray) { return ray.lost; });
     PathStep accepted{node_, {}, rays_};
     for (const std::size_t c : {std::size_t{0}, std::size_t{1}, std::size_t{2}})
       accepted.centre[c] = fed(c) + step_.at[c].displacement_m.template head<2>();
@@ -177,6 +184,7 @@ class PathMotion {
   MarchStep step_;
   std::array<std::vector<DiscRay>, 3> rays_;  ///< of each node of the step and each disc
   long node_ = 0;                             ///< where the step begins
+  long surfaces_lost_ = 0;
 };
 
 /// over_turns() of a tool in a material. The tool is copied.

@@ -49,6 +49,9 @@ class CircularMotion {
     return march_.over_period(state_, see);
   }
 
+  /// A surface is kept however old it is.
+  [[nodiscard]] static long surfaces_lost() { return 0; }
+
   /// Modes are scaled to their displacement at the cut. The largest of numbers some of which are NaN is any of them.
   [[nodiscard]] bool within(double radius_m) const {
     return state_.modes.allFinite() && state_.modes.cwiseAbs().maxCoeff() < radius_m;
@@ -63,7 +66,7 @@ class CircularMotion {
 }  // namespace
 
 std::string name(SimulationStatus status) {
-  constexpr std::array<const char*, 3> names{"completed", "overflowed", "unsettled"};
+  constexpr std::array<const char*, 4> names{"completed", "overflowed", "unsettled", "surface_lost"};
   return names[static_cast<std::size_t>(status)];
 }
 

@@ -80,7 +80,7 @@ SimulatedPointSummary point_of(const PointSimulation& p, std::size_t index) {
   summary.period_difference = finite(p.cut.motion.difference);
   summary.simulated_s = p.cut.simulated_s;
   summary.growth = growth_of(p);
-  if (p.cut.status == milling::SimulationStatus::overflowed) return summary;  // figures of such a motion are none
+  if (milling::ended_early(p.cut.status)) return summary;  // figures of such a motion are none
   add_figures(summary, p.cut);
   summary.vibration_lines = lines_of<VibrationLineSummary>(p, p.cut.trace.displacement_m);
   summary.force_lines = lines_of<ForceLineSummary>(p, p.cut.trace.force_n);

@@ -169,11 +169,12 @@ void fields(Visitor& visit, Section& point) {
   visit(Field{"spindle_speed_rpm", Kind::spindle_speed, "spindle speed"}, point.spindle_speed_rpm);
   visit(Field{"depth_m", Kind::length, "axial depth of cut"}, point.depth_m);
   visit(Field{"feed_per_tooth_m", Kind::length, "feed per tooth"}, point.feed_per_tooth_m);
-  visit(
-      Field{"status", Kind::text,
-            "\"completed\", \"overflowed\" (the vibration outgrew the cutter, at simulated_s) or \"unsettled\" (forces "
-            "within steps did not settle: not to be trusted)"},
-      point.status);
+  visit(Field{"status", Kind::text,
+              "\"completed\", \"overflowed\" (the vibration outgrew the cutter, at simulated_s), \"surface_lost\" (it "
+              "was too "
+              "fast or too large for exact paths, from simulated_s on) or \"unsettled\" (forces within steps did not "
+              "settle: not to be trusted)"},
+        point.status);
   visit(Field{"motion", Kind::text, "\"periodic\", \"period_n\", \"quasi_periodic\" or \"growing\""}, point.motion);
   visit(Field{"period", Kind::count, "periods of the cut after which the motion repeats itself; 0: never"},
         point.period);
@@ -185,7 +186,7 @@ void fields(Visitor& visit, Section& point) {
   visit(Field{"simulated_s", Kind::time, "time that was simulated, up to the end or to where the status was met"},
         point.simulated_s);
   visit(Field{"peak_to_peak_m", Kind::length,
-              "along feed, normal and axis; null, as below, where it outgrew the cutter", or_null},
+              "along feed, normal and axis; null, as below, where it outgrew the cutter or exact paths", or_null},
         point.peak_to_peak_m);
   visit(Field{"mean_force_n", Kind::force, "on the tool, along feed, normal and axis", or_null}, point.mean_force_n);
   visit(Field{"peak_force_n", Kind::force, "largest resultant force on the tool", or_null}, point.peak_force_n);

@@ -136,7 +136,7 @@ void march_arm(const Simulated& cut, const milling::TurnObserver& look, PointSim
 /// The approach of the deflection to its end, along feed and normal, of a cut that began at a border.
 void approach(const Simulated& cut, PointSimulation& p) {
   if (cut.setup.simulation->start != setup::CutStart::border) return;
-  if (p.cut.status == milling::SimulationStatus::overflowed) return;
+  if (milling::ended_early(p.cut.status)) return;
   constexpr Eigen::Index least_means = 20;
   if (p.cut.means_m.cols() < least_means || !p.cut.means_m.allFinite()) return;
   const double period_s = 60.0 / p.point.spindle_speed_rpm / cut.options.means_a_turn;
@@ -170,7 +170,7 @@ std::optional<ForcedAgreement> agreement(const Simulated& cut, const milling::Re
   try {
     const milling::ForcedVibration forced =
         milling::forced_vibration(structure, cut.process, p.point.spindle_speed_rpm, p.point.depth_m,
-                                  p.feed_per_tooth_m, {.error_tolerance = 1e-6});
+                                  p.feed_per_tooth_m, {.error_tolerance = 1e-10});
     return ForcedAgreement{forced.peak_to_peak_m, difference_of(p.cut, forced, one_entry(cut.process)),
                            std::pow(p.lobes.modulus, static_cast<double>(cut.options.settling_turns) * p.teeth)};
   } catch (const core::InputError& error) {
