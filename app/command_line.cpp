@@ -16,6 +16,7 @@
 #include "app/lobes_input.hpp"
 #include "app/log.hpp"
 #include "app/manual_page.hpp"
+#include "app/ranks_option.hpp"
 #include "app/reduce_command.hpp"
 #include "app/sweep/command_sweep.hpp"
 #include "app/terminal.hpp"
@@ -78,6 +79,8 @@ ExitCode compute(const Arguments& arguments, const cases::Case& source, const Ru
   report::ResultFolder folder(arguments.out.empty() ? report::default_result_folder(source.name)
                                                     : std::filesystem::path(arguments.out));
   log_to_file(folder.path() / "run.log");
+  messages_to_log();
+  const auto ranks = start_ranks(arguments.ranks);
   const RunResult result = run_case(source, {folder.path(),
                                              arguments.fresh,
                                              verbosity,
@@ -152,6 +155,8 @@ ExitCode postures(const Arguments& arguments, std::ostream& out) {
 ExitCode reduce(const Arguments& arguments, std::ostream& out) {
   ReduceRequest request = arguments.reduce;
   request.display = start_log(arguments);
+  messages_to_log();
+  const auto ranks = start_ranks(arguments.ranks);
   out << reduce_part(cases::read_case(arguments.case_path, arguments.overrides), request);
   return ExitCode::done;
 }

@@ -5,6 +5,7 @@
 #include "app/completion.hpp"
 #include "app/doctor.hpp"
 #include "app/memory_option.hpp"
+#include "app/ranks_option.hpp"
 #include "case/templates.hpp"
 
 namespace thinwall::app {
@@ -158,6 +159,7 @@ void describe_reduce(CLI::App& app, Arguments& arguments) {
   command->add_option("--characteristic", reduce.characteristic, "amplitudes of a reduced interface")
       ->check(CLI::Range(1, 2000));
   command->add_flag("--compare", reduce.compare, "a table of all methods at this size");
+  add_ranks_option(*command, arguments.ranks);
   add_memory_option(*command);
   add_log_arguments(*command, arguments);
 }
@@ -218,7 +220,7 @@ void describe_simulate(CLI::App& app, Arguments& arguments) {
   command
       ->add_option("--trace", simulate.traced_turns,
                    "of them, those written sample by sample, and of whose lines the text tells (default: 50)")
-      ->check(CLI::Range(0, 10000));
+      ->check(CLI::Range(0, 100000));
   command->add_option("--steps", simulate.steps, "steps of a tooth from entry to exit, on circles (default: 200)")
       ->check(CLI::Range(4, 100000));
   add_log_arguments(*command, arguments);
@@ -272,20 +274,34 @@ void describe_calibrate(CLI::App& app, Arguments& arguments) {
       ->add_option("--speed", calibrate.speed,
                    "speed whose limit the next cut is to narrow: \"9000 rpm\" (default: the case's)")
       ->type_name("SPEED");
+  command
+      ->add_option("--risk", calibrate.risk,
+                   "also propose the cut of the highest removal rate that chatters with at most this probability: 0.1")
+      ->check(CLI::Range(1e-3, 0.999));
   add_run_arguments(*command, arguments);
 }
 
 void describe_coefficients(CLI::App& app, Arguments& arguments) {
   CoefficientsRequest& coefficients = arguments.coefficients;
-  auto* command = app.add_subcommand(
-      "coefficients", "cutting coefficients with their intervals from mean forces at several feeds per tooth");
+  auto* command = app.add_subcommand("coefficients",
+                                     "cutting coefficients with their intervals from mean forces at several feeds per "
+                                     "tooth, or, with the runout, from "
+                                     "forces over the angle");
   command
-      ->add_option("FORCES", coefficients.forces,
-                   "CSV, a line a cut: feed_per_tooth_mm, depth_mm, force_feed_n, force_normal_n, force_axis_n; where "
-                   "cuts are no slots radial_depth_mm and milling (up, down)")
+      ->add_option(
+          "FORCES", coefficients.forces,
+          "CSV, a line a cut: feed_per_tooth_mm, depth_mm, force_feed_n, force_normal_n, force_axis_n; where "
+          "cuts are no slots radial_depth_mm and milling (up, down); angle_deg of the first tooth where a line "
+          "is an angle")
       ->type_name("FILE")
       ->required();
-  command->add_option("--teeth", coefficients.teeth, "teeth of the tool")->required()->check(CLI::Range(1, 1000));
+  auto* tool =
+      command
+          ->add_option("--tool", coefficients.tool, "TOML with [tool] as in a case: teeth, diameter, helices, pitches")
+          ->type_name("FILE");
+  command->add_option("--teeth", coefficients.teeth, "teeth of the tool, where there is no --tool")
+      ->check(CLI::Range(1, 1000))
+      ->excludes(tool);
   command->add_option("--diameter", coefficients.diameter, "of the tool, \"10 mm\"; for radial depths")
       ->type_name("LENGTH");
   command->add_option("--on", coefficients.on, "on what the forces act (default: tool)")->type_name("tool|part");
@@ -330,6 +346,7 @@ void describe(CLI::App& app, Arguments& arguments) {
   auto* run_command = app.add_subcommand("run", "compute a case");
   add_case_arguments(*run_command, arguments);
   add_run_arguments(*run_command, arguments);
+  add_ranks_option(*run_command, arguments.ranks);
   describe_lobes(app, arguments);
   auto* robot_command = app.add_subcommand(
       "robot", "modes and stiffness of the robot's tip in its posture, along a path, over a workspace");

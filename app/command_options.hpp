@@ -11,6 +11,7 @@
 #include "app/observed/coefficients_command.hpp"
 #include "app/observed/validate_command.hpp"
 #include "app/postures_command.hpp"
+#include "app/ranks_option.hpp"
 #include "app/reduce_command.hpp"
 #include "app/simulate_command.hpp"
 #include "app/sweep/command_sweep.hpp"
@@ -41,6 +42,7 @@ struct Arguments {
   MergeRequest merge;
   bool fresh = false, quiet = false, verbose = false, all = false;
   int threads = 0;
+  RanksRequest ranks;
   double tolerance = 1e-9;
 };
 

@@ -17,6 +17,7 @@
 #include "app/self_test.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "distributed/rank_team.hpp"
 #include "io/surface/step.hpp"
 
 namespace thinwall::app {
@@ -101,6 +102,7 @@ std::string doctor_report() {
   text << "\noptional parts\n";
   line("STEP files",
        io::reads_step() ? "there (Open CASCADE)" : "absent: install libocct-data-exchange-dev and build again");
+  line("--ranks", distributed::ranks_in_words());
   return text.str();
 }
 

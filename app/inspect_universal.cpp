@@ -11,6 +11,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/median.hpp"
 #include "core/units.hpp"
 #include "io/frf/one_reference.hpp"
 #include "io/frf/uff_content.hpp"
@@ -88,12 +89,6 @@ void add_shapes(const std::vector<io::UffShape>& shapes, std::string& text, json
   document["shapes"] = list;
 }
 
-double median(Eigen::VectorXd values) {
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 void add_frfs(const std::vector<io::MeasuredEntry>& entries, std::string& text, json& document) {
   text += fmt::format("  FRFs: {} (record = NUMBER names one in a case)\n    {:>6}  {:<16} {:<16} {:>6} {:>22}  {}\n",
                       entries.size(), "record", "response", "force", "lines", "band", "coherence (median)");
@@ -108,12 +103,13 @@ void add_frfs(const std::vector<io::MeasuredEntry>& entries, std::string& text, 
              {"lines", frf.axis.size()},
              {"from_hz", from},
              {"to_hz", to}};
-    if (coherent) row["median_coherence"] = median(frf.coherence);
+    if (coherent) row["median_coherence"] = core::median({frf.coherence.begin(), frf.coherence.end()});
     list.push_back(row);
     if (i >= most_rows) continue;
-    text += fmt::format("    {:>6}  {:<16} {:<16} {:>6} {:>22}  {}\n", i + 1, name_of(entries[i].response),
-                        name_of(entries[i].force), frf.axis.size(), fmt::format("{:.6g} to {:.6g} Hz", from, to),
-                        coherent ? fmt::format("{:.3f}", median(frf.coherence)) : "-");
+    text +=
+        fmt::format("    {:>6}  {:<16} {:<16} {:>6} {:>22}  {}\n", i + 1, name_of(entries[i].response),
+                    name_of(entries[i].force), frf.axis.size(), fmt::format("{:.6g} to {:.6g} Hz", from, to),
+                    coherent ? fmt::format("{:.3f}", core::median({frf.coherence.begin(), frf.coherence.end()})) : "-");
   }
   text += more_text(entries.size(), "FRFs");
   document["frfs"] = list;

@@ -6,6 +6,7 @@
 #include <string>
 #include <thread>
 
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/memory.hpp"
 #include "core/units.hpp"
@@ -26,6 +27,7 @@ constexpr double least_bytes = 1e8;
   const std::string text = "thinwall: out of memory: the process has come to hold the " +
                            core::readable_text(limit_bytes, core::kind::memory) +
                            " of --memory; take larger elements, a lower order or fewer modes, or give more\n";
+  core::remove_partial_paths();
   (void)!::write(STDERR_FILENO, text.data(), text.size());
   ::_exit(static_cast<int>(core::ExitCode::numerical));
 }

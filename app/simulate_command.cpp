@@ -9,10 +9,12 @@
 #include "app/forecast.hpp"
 #include "app/lobes_input.hpp"
 #include "app/log.hpp"
+#include "case/checks/doubts.hpp"
 #include "case/numbers.hpp"
 #include "case/problem.hpp"
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
+#include "core/messages.hpp"
 #include "report/publish.hpp"
 #include "report/result_folder.hpp"
 #include "report/simulation/simulation_files.hpp"
@@ -90,6 +92,7 @@ std::string simulate_case(cases::Case source, const std::filesystem::path& out, 
   log_to_file(folder.path() / "run.log");  // marks the folder as ours
   messages_to_log();
   const auto first_mesh = tell_of_long_run(source);
+  for (const std::string& doubt : cases::doubts_about(source)) core::warn(doubt);
   const auto cache = folder.path() / "cache";
   const auto kept_under = [&cache](const std::string& stage, const std::string& key) {
     return key.empty() ? study::Checkpoint() : study::Checkpoint(cache / (stage + ".bin"), key, false);

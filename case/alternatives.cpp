@@ -103,6 +103,7 @@ void add_missing(const Schema& schema, const CaseValues& values, const CaseValue
     const std::string path = as_a_whole(join(table_of(chooser.key), rest), rest);
     const std::string table(table_of(path));
     if (is_there(values, path) || !is_there(values, table)) continue;
+    if (!belonging.unless.empty() && is_there(values, join(table, last_name(belonging.unless)))) continue;
     faults.emplace_back(path, "missing; " + chooser.key + " = \"" + *word +
                                   "\" needs it: " + std::string(meaning_of(schema, belonging.path)));
   }

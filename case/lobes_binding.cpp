@@ -47,7 +47,8 @@ std::vector<setup::ObservedCuts> bind_observed(const std::vector<Table>& tables,
 }
 
 setup::Calibration bind_calibration(const Table& table) {
-  setup::Calibration calibration{table.integer("draws"), table.integer("seed"), {}, table.optional("spindle_speed")};
+  setup::Calibration calibration{
+      table.integer("draws"), table.integer("seed"), {}, table.optional("spindle_speed"), table.optional("risk")};
   if (table.has("folds")) calibration.folds = table.integer("folds");
   return calibration;
 }

@@ -8,6 +8,7 @@
 #include "case/checks/checks.hpp"
 #include "case/checks/findings.hpp"
 #include "case/data_files.hpp"
+#include "case/material_values.hpp"
 #include "case/schema/schema.hpp"
 #include "case/toml_values.hpp"
 #include "core/atomic_file.hpp"
@@ -27,6 +28,7 @@ std::filesystem::path case_file(const std::filesystem::path& folder_or_file) {
 Case parse_case(const std::string& text, const std::filesystem::path& folder, const std::string& name,
                 const std::vector<std::string>& overrides, const CaseValues& added) {
   ReadValues read = read_values(text, name, case_schema(), overrides, added);
+  fill_in_material(read.values);
   Case result = bind_case(std::move(read.values), folder);
   result.source = text;
   Findings findings{result.values, std::move(read.problems)};

@@ -2,6 +2,7 @@
 #   runtime    bin/thinwall, its manual page and completions, the licence and the change log
 #   library    lib/libthinwall.so.0.1
 #   dev        include/thinwall, lib/libthinwall.so, find_package(thinwall), pkg-config thinwall
+#   mpi        bin/thinwall-mpi, if it is built (distributed/CMakeLists.txt)
 #   python     the module, if it is built (python/CMakeLists.txt)
 # One shared library is installed, so that programs that link it need Eigen's headers and none of the libraries below it.
 # The program and the Python module are linked statically from the same objects.
@@ -11,7 +12,7 @@ if(CMAKE_LIBRARY_ARCHITECTURE AND CMAKE_INSTALL_LIBDIR STREQUAL lib)  # Debian's
   set(CMAKE_INSTALL_LIBDIR lib/${CMAKE_LIBRARY_ARCHITECTURE})
 endif()
 
-set(THINWALL_FOLDERS core dynamics linalg mesh fem reduction robot coupling regression identification milling learning posture io setup case study)
+set(THINWALL_FOLDERS core dynamics linalg distributed mesh fem reduction robot coupling regression identification milling learning posture io setup case study)
 set(thinwall_version_of_interface ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 
 # All objects of all folders; the archives beside them only state which other libraries they need.
@@ -27,6 +28,13 @@ target_compile_features(thinwall_shared INTERFACE cxx_std_20)
 include(cmake/ThinwallBuiltFirst.cmake)
 thinwall_built_first(thinwall runtime)
 install(TARGETS thinwall RUNTIME COMPONENT runtime)
+if(TARGET thinwall_mpi)
+  thinwall_built_first(thinwall_mpi mpi)
+  install(TARGETS thinwall_mpi RUNTIME COMPONENT mpi)
+  execute_process(COMMAND gzip -9nc ${PROJECT_SOURCE_DIR}/packaging/thinwall-mpi.1
+                  OUTPUT_FILE ${PROJECT_BINARY_DIR}/thinwall-mpi.1.gz)
+  install(FILES ${PROJECT_BINARY_DIR}/thinwall-mpi.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT mpi)
+endif()
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 
 # thinwall_prints(<file> <words>...)   installs below share/ the text that `thinwall <words>` prints at installation

@@ -2,6 +2,7 @@
 #   thinwall            the program
 #   libthinwall0.1      the shared library; the name follows the version of its interface
 #   libthinwall-dev     headers, find_package(thinwall), pkg-config thinwall
+#   thinwall-mpi        the ranks of `thinwall run --ranks`, if they are built
 #   python3-thinwall    the Python module, if it is built
 # The packages are for every machine of an architecture; the version of packages built with THINWALL_NATIVE, which run on
 # this processor only, ends with "+native". dpkg-shlibdeps finds their dependencies.
@@ -67,6 +68,11 @@ install(FILES ${PROJECT_BINARY_DIR}/package_library/overrides DESTINATION share/
         RENAME ${thinwall_library_package} COMPONENT library)
 thinwall_package(dev libthinwall-dev libdevel "vibration and chatter of thin-walled parts - headers")
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "${thinwall_library_package} (= ${THINWALL_PACKAGE_VERSION}), libeigen3-dev (>= 3.4)")
+if(TARGET thinwall_mpi)
+  list(APPEND CPACK_COMPONENTS_ALL mpi)
+  thinwall_package(mpi thinwall-mpi science "vibration and chatter of thin-walled parts - MPI")
+  set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "thinwall (= ${THINWALL_PACKAGE_VERSION}), openmpi-bin")
+endif()
 if(TARGET thinwall_python)
   list(APPEND CPACK_COMPONENTS_ALL python)
   thinwall_package(python python3-thinwall python "vibration and chatter of thin-walled parts - Python")
@@ -78,6 +84,9 @@ endif()
 
 # The target packs the program and the library, which it builds first, but not the tests.
 add_custom_target(packages COMMAND ${CMAKE_CPACK_COMMAND} DEPENDS thinwall thinwall_shared USES_TERMINAL)
+if(TARGET thinwall_mpi)
+  add_dependencies(packages thinwall_mpi)
+endif()
 if(TARGET thinwall_python)
   add_dependencies(packages thinwall_python)
 endif()

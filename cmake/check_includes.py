@@ -13,6 +13,7 @@ ALLOWED = {
     "core": [],
     "dynamics": ["core"],
     "linalg": ["core"],
+    "distributed": ["linalg", "core"],
     "mesh": ["core"],
     "fem": ["mesh", "linalg", "dynamics", "core"],
     "reduction": ["linalg", "dynamics", "core"],

@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-FOLDERS = ("core", "dynamics", "linalg", "mesh", "fem", "reduction", "robot", "coupling", "regression", "identification", "milling",
+FOLDERS = ("core", "dynamics", "linalg", "distributed", "mesh", "fem", "reduction", "robot", "coupling", "regression", "identification", "milling",
            "learning", "posture", "io", "setup", "case", "study")
 
 

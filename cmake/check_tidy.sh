@@ -11,7 +11,7 @@ cd "$(dirname "$(readlink -f "$0")")/.."
 
 at_least=20 at_most=40  # batches: what changed, up to the second, and of the rest so many as make up the first
 build=$PWD/build/tidy
-folders="core|dynamics|linalg|mesh|fem|reduction|robot|coupling|regression|identification|milling|learning|posture|io|setup|case|study|report|app"
+folders="core|dynamics|linalg|distributed|mesh|fem|reduction|robot|coupling|regression|identification|milling|learning|posture|io|setup|case|study|report|app"
 
 configure() {  # batches or not
   mkdir -p build

@@ -1,7 +1,7 @@
 # Installs the headers to include/thinwall, in their folders; run by `cmake --install`. In the sources they include each
 # other relative to the root ("mesh/box.hpp"). In a directory that many libraries share they must do so under the
 # library's name ("thinwall/mesh/box.hpp"), so that no `mesh` or `io` of another library is found instead. Headers that
-# need those of CHOLMOD, Open CASCADE, cereal or JSON are not installed; no other header includes them.
+# need those of CHOLMOD, Open CASCADE, cereal, JSON or MUMPS are not installed; no other header includes them.
 set(internal linalg/cholmod.hpp io/surface/step_triangles.hpp case/schema/json_schema.hpp
              study/kept/archive.hpp study/kept/archive_models.hpp)
 list(JOIN THINWALL_FOLDERS "|" folders)
@@ -10,6 +10,7 @@ file(REMOVE_RECURSE ${staged})
 foreach(folder IN LISTS THINWALL_FOLDERS)
   file(GLOB_RECURSE headers RELATIVE ${THINWALL_SOURCE_DIR} ${THINWALL_SOURCE_DIR}/${folder}/*.hpp)
   list(REMOVE_ITEM headers ${internal})
+  list(FILTER headers EXCLUDE REGEX "^distributed/ranks/")
   foreach(header IN LISTS headers)
     file(READ ${THINWALL_SOURCE_DIR}/${header} text)
     string(REGEX REPLACE "#include \"(${folders})/" "#include \"thinwall/\\1/" text "${text}")

@@ -8,6 +8,7 @@
 #include "core/dense_eigenvalues.hpp"
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
+#include "core/median.hpp"
 
 namespace thinwall::dynamics {
 
@@ -65,12 +66,6 @@ Run largest_of_three(const Eigen::VectorXd& values) {
     if (reached > run.value) run = {reached, k};
   }
   return run;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// The change of Re H through the resonance around `line`: over the neighbouring lines on which |Im H| is at least half
@@ -134,7 +129,7 @@ double window_median(Eigen::Index lines, Eigen::Index k, Value value) {
   for (Eigen::Index i = std::max<Eigen::Index>(0, k - half_window); i <= std::min(lines - 1, k + half_window); ++i) {
     values.push_back(value(i));
   }
-  return median(std::move(values));
+  return core::median(std::move(values));
 }
 
 /// An estimate of each line's noise: its distance from the straight line through its neighbours, divided by the factor

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/curved_boundary.hpp"
 #include "fem/to_tolerance.hpp"
 #include "mesh/confined.hpp"
 #include "mesh/faceted_surface.hpp"
@@ -26,16 +27,17 @@ struct SurfaceFit {
   std::vector<std::string> failures;   ///< a message for each attempt that failed before
 };
 
-/// The first mesh of a part.
+/// The mesh of a level, the first one among them.
 struct FirstMesh {
   mesh::TetMesh mesh;
   SurfaceFit fit;
+  std::shared_ptr<const CubicShape> shape{};  ///< of its elements; null if they are straight
 };
 
 /// Options of refine_closed_part().
 struct ClosedPartOptions {
-  /// Tolerance on frequencies, relative, 1e-3 to 0.1. The part share_of_surface of it is for the surface, which the
-  /// elements follow with straight edges; the rest is for the elements.
+  /// Tolerance on frequencies, relative, 1e-3 to 0.1. The part share_of_surface of it is for the volume, by
+  /// which the elements do not follow the surface; the rest is for the elements.
   double tolerance = 1e-2;
   ModeOptions modes{.count = 5, .up_to_hz = {}};
   std::vector<Support> supports;   ///< empty for a free part
@@ -72,11 +74,15 @@ struct [[nodiscard]] ClosedPart {
 /// The part whose mesh(level) is mesh::mesh_closed_surface with edges of 9 wall thicknesses (one element through the
 /// wall), on plane faces at least 0.15 bending waves of the highest of `count` modes where there are no layers, divided
 /// by 1.5^level, `level` graded layers beside sharp edges (one more if a support ends within a face) and a turning
-/// angle of 0.5 / 2^level rad along an edge, finer if the volume requires it (tolerance 0.2 · tolerance). If a finer
-/// level cannot be meshed, elements of the first level made 0.7^level times as large are used instead. The fit of each
-/// mesh is appended to `fits`, which must outlive the part, as must `surface` and `options`.
+/// angle of 0.5 / 2^level rad along an edge. Elements of a part of one material follow curved patches of the surface by
+/// their shape (curved_onto()): their chords may lie a fifth of the wall off it. Until the volume is right to 0.2 ·
+/// tolerance, a body that is round rather than thin gets isotropic elements, and then chords are half as far off and
+/// turn 0.7 times as far. Where that fails, and with several materials, elements are straight, and the turning angle is
+/// as small as the volume requires; of a round body the best curved mesh is taken. If a finer level cannot
+/// be meshed, straight elements of the first level made 0.7^level times as large are used instead. Each mesh is
+/// appended to `meshes`, which must outlive the part, as must `surface` and `options`.
 [[nodiscard]] SolidPart solid_part(const mesh::TriangleSurface& surface, const Material& material,
-                                   const ClosedPartOptions& options, std::vector<SurfaceFit>& fits);
+                                   const ClosedPartOptions& options, std::vector<FirstMesh>& meshes);
 
 /// True if two faces meet at a re-entrant edge, which turns inwards by more than 30°.
 [[nodiscard]] bool has_reentrant_edge(const mesh::TriangleSurface& surface);

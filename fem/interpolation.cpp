@@ -4,9 +4,6 @@
 
 namespace thinwall::fem {
 
-namespace {
-
-/// The values N_b(α_a / p) of the shape functions of order `from` at the nodes of order `to`, n_to × n_from.
 Eigen::MatrixXd values_at_nodes(int from, int to) {
   const auto alphas = mesh::lattice(to);
   Eigen::MatrixXd N(static_cast<Eigen::Index>(alphas.size()), (from + 1) * (from + 2) * (from + 3) / 6);
@@ -16,8 +13,6 @@ Eigen::MatrixXd values_at_nodes(int from, int to) {
   }
   return N;
 }
-
-}  // namespace
 
 Eigen::MatrixXd interpolated(const Model& from, const Eigen::MatrixXd& Phi, const Model& to) {
   const Eigen::MatrixXd N = values_at_nodes(from.nodes.order, to.nodes.order);

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "fem/free_motions.hpp"
 #include "linalg/inverse_iteration.hpp"
+#include "linalg/rayleigh_quotients.hpp"
 
 namespace thinwall::fem {
 
@@ -94,7 +95,9 @@ std::optional<Modes> modes_near(const Model& model, const Factored& factored, li
   const linalg::ShiftedInverse inverse = inverse_of(factored);
   for (int step = 0; step < most_steps; ++step) {
     if (!linalg::inverse_iteration(model.M, inverse, start)) return std::nullopt;
-    if (start.inverse_residual.maxCoeff() <= inverse_residual) return described(model, std::move(start));
+    if (start.inverse_residual.maxCoeff() > inverse_residual) continue;
+    start.lambda = linalg::rayleigh_quotients(model.K, model.M, start.Phi);
+    return described(model, std::move(start));
   }
   return std::nullopt;
 }

@@ -40,7 +40,8 @@ Materials materials_of(const SolidPart& part, const mesh::TetMesh& mesh) {
 
 /// The model and its factor, with the modes still to be found.
 Solution prepared(const SolidPart& part, const mesh::TetMesh& mesh, int order, const ToleranceOptions& options) {
-  Model model = supported_model(mesh, order, materials_of(part, mesh), part.supports, part.shape, part.attachments);
+  const Shaping shape = part.shaping ? part.shaping(mesh) : part.shape;
+  Model model = supported_model(mesh, order, materials_of(part, mesh), part.supports, shape, part.attachments);
   Factored factored = factorise(model, options.memory_limit_bytes);
   return {std::move(model), std::move(factored), {}, {}};
 }

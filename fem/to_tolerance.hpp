@@ -23,6 +23,7 @@ struct SolidPart {
   std::vector<Support> supports;
   Attachments attachments{};
   std::function<Materials(const mesh::TetMesh&)> materials{};  ///< used instead of material, if set
+  std::function<Shaping(const mesh::TetMesh&)> shaping{};      ///< used instead of shape, if set
 };
 
 /// One solution on the way: its size, and its difference from the one before it on the same mesh.

@@ -11,6 +11,7 @@
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/median.hpp"
 
 namespace thinwall::identification {
 
@@ -125,12 +126,6 @@ double damping(Complex pole) {
   return -pole.real() / std::abs(pole);
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 bool alike(Complex a, Complex b) {
   return std::abs(std::abs(a) / std::abs(b) - 1.0) < 0.01 && std::abs(damping(a) - damping(b)) < 0.25 * damping(b);
 }
@@ -190,7 +185,7 @@ std::vector<StablePole> stable_poles(const std::vector<OrderPoles>& orders) {
     std::vector<double> omega, zeta;
     int last_order = 0;
     [[nodiscard]] Complex pole() const {
-      const double w = median(omega), z = median(zeta);
+      const double w = core::median(omega), z = core::median(zeta);
       return {-z * w, w * std::sqrt(1.0 - z * z)};
     }
   };

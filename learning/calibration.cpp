@@ -8,8 +8,9 @@
 
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
+#include "core/median.hpp"
 #include "core/parallel.hpp"
-#include "learning/quadratic_cuts.hpp"
+#include "learning/interpolated_cuts.hpp"
 
 namespace thinwall::learning {
 
@@ -37,19 +38,26 @@ std::vector<Eigen::VectorXd> all_draws(const Chains& chains) {
   return all;
 }
 
-/// Mean and covariance of draws, with a tenth of another covariance, so that it is one whatever the draws.
-Region region_of(const std::vector<Eigen::VectorXd>& draws, const Eigen::MatrixXd& besides) {
-  const auto count = static_cast<double>(draws.size());
-  Region region{Eigen::VectorXd::Zero(besides.rows()), 0.1 * besides};
-  for (const Eigen::VectorXd& x : draws) region.mean += x / count;
-  for (const Eigen::VectorXd& x : draws) region.covariance += (x - region.mean) * (x - region.mean).transpose() / count;
-  return region;
+/// z of every draw.
+std::vector<Eigen::VectorXd> places_of(const std::vector<Eigen::VectorXd>& draws) {
+  std::vector<Eigen::VectorXd> places;
+  places.reserve(draws.size());
+  for (const Eigen::VectorXd& x : draws) places.push_back(without_noise(x));
+  return places;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::ranges::nth_element(values, middle);
-  return *middle;
+/// Three z for each coefficient of a quadratic about every region, normally distributed, a third wider than it.
+std::vector<Eigen::VectorXd> places_about(const std::vector<Region>& regions) {
+  constexpr double wider = 1.3;
+  std::mt19937 random(1);
+  std::vector<Eigen::VectorXd> places;
+  for (const Region& region : regions) {
+    const Index unknowns = region.mean.size();
+    const Eigen::MatrixXd L = Eigen::LLT<Eigen::MatrixXd>(region.covariance).matrixL();
+    for (Index i = 0; i < 3 * quadratic_terms(unknowns - 1); ++i)
+      places.push_back(without_noise(region.mean + wider * L * milling::standard_normal(unknowns, random)));
+  }
+  return places;
 }
 
 std::vector<LearnedParameter> learned_parameters(const Calibration& c) {
@@ -69,8 +77,8 @@ std::vector<LearnedParameter> learned_parameters(const Calibration& c) {
   return list;
 }
 
-/// Probabilities of chatter by quadratic predictions, the mean over the draws.
-std::vector<LearnedCut> learned_cuts(const Calibration& c, const QuadraticCuts& prediction) {
+/// Probabilities of chatter by interpolated predictions, the mean over the draws.
+std::vector<LearnedCut> learned_cuts(const Calibration& c, const InterpolatedCuts& prediction) {
   Eigen::VectorXd chatters = Eigen::VectorXd::Zero(std::ssize(c.model.cuts));
   for (const Eigen::VectorXd& x : c.draws) {
     const PredictedCuts predicted = prediction(without_noise(x));
@@ -87,6 +95,12 @@ std::vector<LearnedCut> learned_cuts(const Calibration& c, const QuadraticCuts& 
     list.push_back({c.model.cuts[i], p, contradicts});
   }
   return list;
+}
+
+/// True if two maxima lie within one deviation of each other.
+bool are_near(const Likeliest& a, const Likeliest& b) {
+  const Eigen::VectorXd off = a.x - b.x;
+  return off.dot(Eigen::LLT<Eigen::MatrixXd>(a.covariance).solve(off)) < 1.0;
 }
 
 /// x = 0, and the likeliest two of some draws of what is known beforehand.
@@ -107,12 +121,22 @@ std::vector<Eigen::VectorXd> good_starts(const CutModel& model) {
 
 }  // namespace
 
-Likeliest likeliest(const CutModel& model) {
+std::vector<Likeliest> maxima(const CutModel& model) {
   require_usable(model);
   const std::vector<Eigen::VectorXd> starts = good_starts(model);
   std::vector<Likeliest> found(starts.size());
   core::parallel_for(starts.size(), [&](std::size_t i) { found[i] = likeliest_from(model, starts[i]); });
-  return *std::ranges::max_element(found, {}, &Likeliest::log_posterior);
+  std::ranges::stable_sort(found, std::ranges::greater{}, &Likeliest::log_posterior);
+  std::vector<Likeliest> apart;
+  for (Likeliest& one : found) {
+    const bool is_new = std::ranges::none_of(apart, [&](const Likeliest& other) { return are_near(one, other); });
+    if (is_new) apart.push_back(std::move(one));
+  }
+  return apart;
+}
+
+Likeliest likeliest(const CutModel& model) {
+  return maxima(model).front();
 }
 
 Likeliest likeliest_from(const CutModel& model, const Eigen::VectorXd& start) {
@@ -154,25 +178,22 @@ Likeliest likeliest_from(const CutModel& model, const Eigen::VectorXd& start) {
 Calibration calibrate(CutModel model, const ChainOptions& options) {
   Calibration c;
   c.model = std::move(model);
-  c.likeliest = likeliest(c.model);
-  const Eigen::VectorXd z_mode = without_noise(c.likeliest.x);
+  std::vector<Likeliest> tops = maxima(c.model);
+  std::vector<Region> regions;
+  for (const Likeliest& top : tops) regions.push_back({top.x, top.covariance});
+  c.likeliest = std::move(tops.front());
+  InterpolatedCuts prediction(c.model, places_about(regions));
   const LogDensity dear = [&](const Eigen::VectorXd& x) {
     return log_posterior(c.model, predict(c.model, without_noise(x), false), x);
   };
-  const LogDensity linear = [&](const Eigen::VectorXd& x) {
-    return log_posterior(c.model, linearised(c.likeliest.predicted, z_mode, without_noise(x)), x);
-  };
-  ChainOptions first = options;
-  first.draws = std::max(20, options.draws / 4);
-  const Region all = region_of(all_draws(surrogate_chains(dear, linear, c.likeliest.x, c.likeliest.covariance, first)),
-                               c.likeliest.covariance);
-  const auto parameters = std::ssize(c.model.parameters);
-  const QuadraticCuts prediction(c.model,
-                                 {all.mean.head(parameters), all.covariance.topLeftCorner(parameters, parameters)});
-  const LogDensity quadratic = [&](const Eigen::VectorXd& x) {
+  const LogDensity cheap = [&](const Eigen::VectorXd& x) {
     return log_posterior(c.model, prediction(without_noise(x)), x);
   };
-  c.chains = surrogate_chains(dear, quadratic, all.mean, all.covariance, options);
+  ChainOptions first = options;
+  first.draws = std::clamp(options.draws / 4, 20, 50);  // each is a row of the interpolation's dense equations
+  first.left_out = 10;
+  prediction.add(c.model, places_of(all_draws(surrogate_chains(dear, cheap, regions, first))));
+  c.chains = surrogate_chains(dear, cheap, regions, options);
   c.draws = all_draws(c.chains);
   c.parameters = learned_parameters(c);
   const ChainDiagnostics diagnostics = diagnose(c.chains.draws);
@@ -180,7 +201,7 @@ Calibration calibrate(CutModel model, const ChainOptions& options) {
   c.least_effective_size = diagnostics.effective_size.minCoeff();
   std::vector<double> noise;
   for (const Eigen::VectorXd& x : c.draws) noise.push_back(noise_of(c.model, x));
-  c.noise = median(std::move(noise));
+  c.noise = core::median(std::move(noise));
   c.cuts = learned_cuts(c, prediction);
   return c;
 }
@@ -195,6 +216,11 @@ std::vector<milling::Cut> cuts_of_draws(const Calibration& calibration, std::siz
   return cuts;
 }
 
+void count(milling::Score& score, const CutModel& model, const PredictedCuts& predicted) {
+  for (std::size_t i = 0; i < model.cuts.size(); ++i)
+    milling::count(score, model.cuts[i].outcome, predicted.margin(static_cast<Index>(i)) > 0.0);
+}
+
 milling::Score cross_validated(const CutModel& model, int folds) {
   milling::Score score;
   for (int fold = 0; fold < folds; ++fold) {
@@ -205,13 +231,7 @@ milling::Score cross_validated(const CutModel& model, int folds) {
       (static_cast<int>(i % static_cast<std::size_t>(folds)) == fold ? left_out : taught).cuts.push_back(model.cuts[i]);
     if (taught.cuts.empty() || left_out.cuts.empty()) continue;
     const PredictedCuts predicted = predict(left_out, without_noise(likeliest(taught).x), false);
-    for (std::size_t i = 0; i < left_out.cuts.size(); ++i) {
-      const milling::CutOutcome outcome = left_out.cuts[i].outcome;
-      if (outcome == milling::CutOutcome::marginal) continue;
-      const bool chatters = predicted.margin(static_cast<Index>(i)) > 0.0;
-      ++score.of;
-      score.right += chatters == (outcome == milling::CutOutcome::chatter) ? 1 : 0;
-    }
+    count(score, left_out, predicted);
   }
   return score;
 }

@@ -25,8 +25,12 @@ struct Likeliest {
 /// step, some ten of them.
 [[nodiscard]] Likeliest likeliest_from(const CutModel& model, const Eigen::VectorXd& start);
 
-/// The highest maximum of likeliest_from() x = 0 and from the likeliest two of 48 draws of what is known beforehand:
-/// lobes that shift past one another make several. Cost: some four times that of one.
+/// The maxima that likeliest_from() finds from x = 0 and from the likeliest two of 48 draws of what is known
+/// beforehand, falling, and more than one deviation apart: lobes that shift past one another make several. Throws as
+/// it. Cost: some four times that of one.
+[[nodiscard]] std::vector<Likeliest> maxima(const CutModel& model);
+
+/// The highest of maxima().
 [[nodiscard]] Likeliest likeliest(const CutModel& model);
 
 /// One parameter, beforehand and after: mean and standard deviation of z and the value at the mean.
@@ -58,13 +62,17 @@ struct Calibration {
   std::vector<Eigen::VectorXd> draws;  ///< x, of all chains
 };
 
-/// The posterior by chains whose cheap density has quadratic predictions (quadratic_cuts.hpp), fitted where short
-/// chains with the prediction linearised at the likeliest x have been. Throws InputError if there are no cuts or no
-/// uncertain parameters, and as predict(). Cost: likeliest(), and some three predictions a draw.
+/// The posterior by chains about all maxima(), whose cheap density has interpolated predictions
+/// (interpolated_cuts.hpp): first through places about the maxima, then also through those where short chains have
+/// been. Throws InputError if there are no cuts or no uncertain parameters, and as predict(). Cost: maxima(), three
+/// predictions for each maximum and coefficient of a quadratic, and some two a draw.
 [[nodiscard]] Calibration calibrate(CutModel model, const ChainOptions& options);
 
 /// At most `count` cuts with the parameters of draws, evenly among all.
 [[nodiscard]] std::vector<milling::Cut> cuts_of_draws(const Calibration& calibration, std::size_t count);
+
+/// Counts the cuts of a model; one chatters by the prediction if its margin is positive. Cost O(cuts).
+void count(milling::Score& score, const CutModel& model, const PredictedCuts& predicted);
 
 /// The number of cuts that are stable or chatter and are predicted rightly by likeliest() of the others: cut i is left
 /// out in round i mod folds. A cut chatters if its margin there is positive. Cost: folds times that of likeliest().

@@ -92,14 +92,6 @@ PredictedCuts predict(const CutModel& model, const Eigen::VectorXd& z, bool with
   return all;
 }
 
-PredictedCuts linearised(const PredictedCuts& predicted, const Eigen::VectorXd& at, const Eigen::VectorXd& z) {
-  const Eigen::VectorXd step = z - at;
-  return {predicted.margin + predicted.margin_slope * step,
-          predicted.frequency_hz + predicted.frequency_slope * step,
-          {},
-          {}};
-}
-
 double log_posterior(const CutModel& model, const PredictedCuts& predicted, const Eigen::VectorXd& x) {
   const double noise = noise_of(model, x);
   const bool three = has_marginal(model);

@@ -36,10 +36,6 @@ struct PredictedCuts {
 /// a multiplier for each cut, and with slopes two loops of the cut for each parameter besides.
 [[nodiscard]] PredictedCuts predict(const CutModel& model, const Eigen::VectorXd& z, bool with_slopes);
 
-/// The prediction at other z, to first order about `at`.
-[[nodiscard]] PredictedCuts linearised(const PredictedCuts& predicted, const Eigen::VectorXd& at,
-                                       const Eigen::VectorXd& z);
-
 /// 1/(1 + e^{−m/κ}), the probability that a cut of margin m chatters.
 [[nodiscard]] double chatter_probability(double margin, double noise);
 

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <sstream>
 #include <string>
 
-#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 
 namespace thinwall::learning {
@@ -16,8 +14,6 @@ namespace {
 
 using Eigen::Index;
 using std::numbers::pi;
-
-constexpr double largest_condition = 1e8;
 
 /// Means over a turn of what the coefficients stand before: rows x_T, y_T; columns K_t, K_r, K_te, K_re.
 Eigen::Matrix<double, 2, 4> across_axis(int teeth, const MeanForceTest& test) {
@@ -57,45 +53,14 @@ std::string test_to_add(const std::vector<MeanForceTest>& tests) {
   return "add one of another engagement, a slot for instance";
 }
 
-/// A least-squares problem with its solution.
-struct Solved {
-  Eigen::VectorXd x, deviation;
-  double residual_square = 0.0, condition = 1.0;
-  Index degrees_of_freedom = 0;
-};
-
-Solved solve(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const std::vector<MeanForceTest>& tests) {
-  const Eigen::VectorXd length = A.colwise().norm();
-  const Eigen::MatrixXd scaled = A * length.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd(scaled.transpose() * scaled));
-  const Eigen::VectorXd values = eigen.eigenvalues();
-  Solved solved;
-  solved.condition = std::sqrt(values(values.size() - 1) / std::max(values(0), 1e-300));
-  if (A.rows() < A.cols() || !(solved.condition < largest_condition)) {
-    std::ostringstream text;
-    text << "coefficients: " << tests.size() << " tests do not tell them apart (condition " << solved.condition
-         << ", must be below " << largest_condition << "); " << test_to_add(tests);
-    throw core::InputError(text.str());
-  }
-  const Eigen::MatrixXd inverse =
-      eigen.eigenvectors() * values.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
-  Eigen::VectorXd y = inverse * (scaled.transpose() * b);
-  y += inverse * (scaled.transpose() * (b - scaled * y));  // takes off what squaring the condition cost
-  solved.x = y.cwiseQuotient(length);
-  solved.residual_square = (b - scaled * y).squaredNorm();
-  solved.degrees_of_freedom = A.rows() - A.cols();
-  const double variance = solved.degrees_of_freedom > 0
-                              ? solved.residual_square / static_cast<double>(solved.degrees_of_freedom)
-                              : std::numeric_limits<double>::infinity();
-  solved.deviation = (variance * inverse.diagonal()).cwiseSqrt().cwiseQuotient(length);
-  return solved;
-}
-
-FittedCoefficient coefficient_of(const Solved& solved, Index k) {
-  const double infinite = std::numeric_limits<double>::infinity();
-  if (solved.degrees_of_freedom == 0) return {solved.x(k), infinite, infinite};
-  return {solved.x(k), solved.deviation(k),
-          solved.deviation(k) * student_quantile(0.975, static_cast<double>(solved.degrees_of_freedom))};
+/// linear_fit(), refused where the tests do not tell the coefficients apart.
+LinearFit solve(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const std::vector<MeanForceTest>& tests) {
+  const LinearFit fit = linear_fit(A, b);
+  if (fit.condition < largest_condition) return fit;
+  std::ostringstream text;
+  text << "coefficients: " << tests.size() << " tests do not tell them apart (condition " << fit.condition
+       << ", must be below " << largest_condition << "); " << test_to_add(tests);
+  throw core::InputError(text.str());
 }
 
 }  // namespace
@@ -122,7 +87,7 @@ CoefficientFit fit_mean_forces(int teeth, const std::vector<MeanForceTest>& test
     z(i) = test.force_n(2);
     forces.col(i) = test.force_n;
   }
-  const Solved across = solve(A, b, tests), along = solve(axial, z, tests);
+  const LinearFit across = solve(A, b, tests), along = solve(axial, z, tests);
   const double residual = across.residual_square + along.residual_square;
   const double scatter = (forces.colwise() - forces.rowwise().mean()).squaredNorm();
   return {coefficient_of(across, 0),
@@ -135,34 +100,6 @@ CoefficientFit fit_mean_forces(int teeth, const std::vector<MeanForceTest>& test
           std::sqrt(residual / static_cast<double>(3 * count)),
           across.condition,
           across.degrees_of_freedom};
-}
-
-double student_quantile(double share, double n) {
-  if (!(share > 0.5 && share < 1.0 && n >= 1.0))
-    throw core::InputError("Student's t: the share must lie between 0.5 and 1, the degrees of freedom be 1 at least");
-  const double p = 2.0 * (1.0 - share);  // of both tails, as Hill counts
-  if (n < 1.5) return 1.0 / std::tan(p * pi / 2.0);
-  if (n < 2.5) return std::sqrt(2.0 / (p * (2.0 - p)) - 2.0);
-  const double a = 1.0 / (n - 0.5), b = 48.0 / (a * a);
-  double c = ((20700.0 * a / b - 98.0) * a - 16.0) * a + 96.36;
-  const double d = ((94.5 / (b + c) - 3.0) / b + 1.0) * std::sqrt(a * pi / 2.0) * n;
-  double y = std::pow(d * p, 2.0 / n);
-  if (y > 0.05 + a) {
-    // x: the normal quantile of p/2, by Newton's rule on its own distribution.
-    double x = -2.0;
-    for (int i = 0; i < 30; ++i)
-      x -= (0.5 * std::erfc(-x / std::numbers::sqrt2) - 0.5 * p) * std::sqrt(2.0 * pi) * std::exp(0.5 * x * x);
-    y = x * x;
-    if (n < 5.0) c += 0.3 * (n - 4.5) * (x + 0.6);
-    c = (((0.05 * d * x - 5.0) * x - 7.0) * x - 2.0) * x + b + c;
-    y = (((((0.4 * y + 6.3) * y + 36.0) * y + 94.5) / c - y - 3.0) / b + 1.0) * x;
-    y = std::expm1(a * y * y);
-  } else {
-    y = ((1.0 / (((n + 6.0) / (n * y) - 0.089 * d - 0.822) * (n + 2.0) * 3.0) + 0.5 / (n + 4.0)) * y - 1.0) *
-            (n + 1.0) / (n + 2.0) +
-        1.0 / y;
-  }
-  return std::sqrt(n * y);
 }
 
 }  // namespace thinwall::learning

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "learning/linear_fit.hpp"
 #include "milling/cut/cutting_force.hpp"
 #include "milling/cut/engagement.hpp"
 
@@ -15,13 +16,6 @@ struct MeanForceTest {
   double depth_m = 0.0;                               ///< axial
   double feed_per_tooth_m = 0.0;                      ///< mean over the teeth
   Eigen::Vector3d force_n = Eigen::Vector3d::Zero();  ///< on the tool, tool axes: feed, normal, axis
-};
-
-/// One coefficient with its uncertainty, N/m² or N/m.
-struct FittedCoefficient {
-  double value = 0.0;
-  double deviation = 0.0;      ///< standard
-  double half_interval = 0.0;  ///< of 95 %, by Student's t
 };
 
 /// The least-squares solution.
@@ -48,9 +42,5 @@ struct CoefficientFit {
 /// test, or where the tests do not tell the coefficients apart (a condition above 1e8), with the condition and the test
 /// to add. Cost O(tests).
 [[nodiscard]] CoefficientFit fit_mean_forces(int teeth, const std::vector<MeanForceTest>& tests);
-
-/// The t for which a share of Student's distribution with that many degrees of freedom lies below, 0.5 < share < 1, by
-/// Hill's expansion (1970, CACM algorithm 396), exact for 1 and 2, else to 1e-4. Throws InputError outside.
-[[nodiscard]] double student_quantile(double share, double degrees_of_freedom);
 
 }  // namespace thinwall::learning

@@ -3,6 +3,9 @@
 #include <Spectra/SymGEigsShiftSolver.h>
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 #include "core/dense_eigenvalues.hpp"
 #include "core/dense_factorisations.hpp"
@@ -10,6 +13,7 @@
 #include "core/interrupt.hpp"
 #include "core/mode_signs.hpp"
 #include "linalg/block_lanczos.hpp"
+#include "linalg/rayleigh_quotients.hpp"
 #include "linalg/tall.hpp"
 
 namespace thinwall::linalg {
@@ -60,6 +64,23 @@ void finish(const SparseMatrix& M, const ShiftedInverse& inverse, Eigenpairs& pa
   pairs.inverse_residual = (R.cwiseProduct(M * R)).colwise().sum().cwiseMax(0.0).cwiseSqrt().transpose();
 }
 
+/// The pairs with their Rayleigh quotients as eigenvalues, ascending again.
+Eigenpairs with_quotients(const SparseMatrix& K, const SparseMatrix& M, Eigenpairs pairs) {
+  if (pairs.lambda.size() == 0) return pairs;
+  // A pair that is round-off, as one of a rigid motion beside an inverse that leaves these out, keeps its place.
+  constexpr double alike = 0.01;
+  const Eigen::ArrayXd quotients = rayleigh_quotients(K, M, pairs.Phi), before = pairs.lambda;
+  pairs.lambda = ((quotients - before).abs() <= alike * before.abs()).select(quotients, before);
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(pairs.lambda.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::ranges::stable_sort(order, {}, [&](Eigen::Index k) { return pairs.lambda(k); });
+  if (std::ranges::is_sorted(order)) return pairs;
+  pairs.lambda = pairs.lambda(order).eval();
+  pairs.Phi = pairs.Phi(Eigen::all, order).eval();
+  pairs.inverse_residual = pairs.inverse_residual(order).eval();
+  return pairs;
+}
+
 void require_count(int count, Eigen::Index rows) {
   if (count >= 1 && count < rows) return;
   throw core::InputError("asked for " + std::to_string(count) + " modes of a model with " + std::to_string(rows) +
@@ -71,16 +92,16 @@ void require_count(int count, Eigen::Index rows) {
 Eigenpairs lowest_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse, int count,
                              double inverse_residual) {
   require_count(count, K.rows());
-  return block_lanczos(M, inverse, {.count = count, .tolerance = inverse_residual});
+  return with_quotients(K, M, block_lanczos(M, inverse, {.count = count, .tolerance = inverse_residual}));
 }
 
-Eigenpairs eigenpairs_up_to(const SparseMatrix&, const SparseMatrix& M, const ShiftedInverse& inverse,
+Eigenpairs eigenpairs_up_to(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse,
                             double lambda_max) {
   if (!(lambda_max > 0.0)) {
     throw core::InputError("asked for the modes up to λ = " + std::to_string(lambda_max) +
                            " rad²/s²: give a bound above 0");
   }
-  return block_lanczos(M, inverse, {.lambda_max = lambda_max});
+  return with_quotients(K, M, block_lanczos(M, inverse, {.lambda_max = lambda_max}));
 }
 
 Eigenpairs single_vector_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse,

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "linalg/minimum_fill.hpp"
 
 namespace thinwall::linalg {
 
@@ -94,6 +95,11 @@ std::vector<int> elimination_order(const MatrixGraph& graph) {
     order.insert(order.end(), nodes.begin(), nodes.end());
   }
   return order;
+}
+
+std::vector<int> least_fill_order(const MatrixGraph& graph) {
+  constexpr int small = 1500;
+  return graph.size() <= small ? minimum_fill_order(graph) : elimination_order(graph);
 }
 
 std::vector<int> nested_dissection(const SparseMatrix& A, const std::vector<int>& node_of_row) {

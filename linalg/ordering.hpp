@@ -17,6 +17,10 @@ namespace thinwall::linalg {
 /// degree²) over the nodes that are not dominated. Throws NumericalError if METIS fails.
 [[nodiscard]] std::vector<int> elimination_order(const MatrixGraph& graph);
 
+/// The nodes of a graph in the order that takes least, minimum_fill_order() up to 1500 nodes, beyond which finding it
+/// takes longer than it saves, else elimination_order(). Errors and cost as there.
+[[nodiscard]] std::vector<int> least_fill_order(const MatrixGraph& graph);
+
 /// The elimination_order() of the graph of A (n × n, both triangles) on nodes, as a permutation of its rows (new
 /// position → old row) that keeps the rows of a node together. node_of_row: the node of each row, in any numbering.
 [[nodiscard]] std::vector<int> nested_dissection(const SparseMatrix& A, const std::vector<int>& node_of_row);

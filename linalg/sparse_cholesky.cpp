@@ -8,8 +8,8 @@
 #include "core/memory.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "linalg/external_factor.hpp"
 #include "linalg/large_array.hpp"
-#include "linalg/minimum_fill.hpp"
 #include "linalg/ordering.hpp"
 #include "linalg/supernodal_factor.hpp"
 #include "linalg/supernodal_solve.hpp"
@@ -54,6 +54,8 @@ struct SparseCholesky::Impl {
   TreeCut cut;
   LargeArray<double> values;
   FactorStatistics statistics;
+  Eigen::Index rows = 0;
+  std::unique_ptr<ExternalFactor> external;  // if another engine holds the factor, in place of all above
 
   /// Bytes of the factor with the zeros that supernodes store, of its indices, and of the update matrices that the
   /// numeric phase holds at its worst.
@@ -63,9 +65,8 @@ struct SparseCholesky::Impl {
 
   void analyse(const SparseMatrix& A) {
     auto start = Clock::now();
-    constexpr int small = 1500;  // nodes beyond which finding the order of least fill takes longer than it saves
     const MatrixGraph graph = pattern_graph(A);
-    const std::vector<int> order = graph.size() <= small ? minimum_fill_order(graph) : elimination_order(graph);
+    const std::vector<int> order = least_fill_order(graph);
     statistics.seconds_ordering = seconds_since(start);
     start = Clock::now();
     L = symbolic_factor(graph, order);
@@ -114,6 +115,12 @@ SparseCholesky::SparseCholesky(const SparseMatrix& A, const std::vector<int>& no
     : impl_(std::make_unique<Impl>()) {
   if (A.rows() == 0 || A.rows() != A.cols() || static_cast<std::size_t>(A.rows()) != node_of_row.size())
     throw core::NumericalError("a factorisation needs a square matrix and a node for each of its rows");
+  impl_->rows = A.rows();
+  impl_->external = external_factor(A, options);
+  if (impl_->external) {
+    impl_->statistics = impl_->external->statistics();
+    return;
+  }
   impl_->analyse(A);
   require_memory(impl_->statistics.bytes, options.memory_limit_bytes, A.rows());
   impl_->compute(A, node_of_row);
@@ -124,6 +131,7 @@ SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
 SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& B) const {
+  if (impl_->external) return impl_->external->solve(B);
   Eigen::MatrixXd X(B.rows(), B.cols());
   // Strips as wide as possible, because each reads the whole factor; the last ones are narrowed to the columns that are
   // left.
@@ -138,7 +146,7 @@ const FactorStatistics& SparseCholesky::statistics() const {
   return impl_->statistics;
 }
 Eigen::Index SparseCholesky::rows() const {
-  return static_cast<Eigen::Index>(impl_->L.permutation.size());
+  return impl_->rows;
 }
 
 }  // namespace thinwall::linalg

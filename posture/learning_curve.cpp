@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/median.hpp"
 #include "core/progress.hpp"
 #include "posture/calibration.hpp"
 
@@ -14,13 +15,6 @@ namespace {
 
 constexpr int first_count = 7;
 constexpr std::size_t tested_in_turn = 4;
-
-double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 /// 7, 14, 28 … and all.
 std::vector<std::size_t> counts_up_to(std::size_t all) {
@@ -55,8 +49,8 @@ LearningPoint point_of(const std::vector<TappedPosture>& some, const PredictorOp
     add_frequency_errors(at, there, frequency);
     if (cut && !at.modes.empty()) add_depth_errors(at, there, *cut, depth);
   }
-  LearningPoint point{static_cast<int>(some.size()), median(std::move(frequency))};
-  if (!depth.empty()) point.depth_error = median(std::move(depth));
+  LearningPoint point{static_cast<int>(some.size()), core::median(std::move(frequency))};
+  if (!depth.empty()) point.depth_error = core::median(std::move(depth));
   return point;
 }
 

@@ -38,7 +38,10 @@ struct PosturePrediction {
 /// The way to learn.
 struct PredictorOptions {
   std::optional<TappedArm> mean;  ///< the model whose modes are the mean (calibrate() it first); none: plain processes
-  regression::AveragingOptions averaging;
+  /// By default functions of the place with two derivatives. Under the squared exponential, whose functions have all,
+  /// deviations are too small away from the tapped postures: of 28 postures of a robot in three coordinates 86 % of the
+  /// limiting depths lay within their bands of 95 %, where these hold 93 %.
+  regression::AveragingOptions averaging{.kernel = regression::Kernel::matern_5_2};
   int fewest_postures = 4;  ///< ≥ 2, of a mode; those seen at fewer are left out and named
   double sd_unseen_ln_frequency = 0.03, sd_unseen_ln_damping = 0.3;  ///< of the model's modes that no posture has shown
   double sd_unseen_residue = 0.2;                                    ///< of their largest entry

@@ -40,6 +40,7 @@ void bind_reduction(py::module_& module);
 void bind_robot(py::module_& module);
 void bind_coupling(py::module_& module);
 void bind_identification(py::module_& module);
+void bind_learning(py::module_& module);
 void bind_milling(py::module_& module);
 void bind_simulation(py::module_& module);
 void bind_io(py::module_& module);

@@ -33,6 +33,7 @@ PYBIND11_MODULE(_core, module) {
   bind_coupling(module);
   bind_identification(module);
   bind_milling(module);
+  bind_learning(module);
   bind_simulation(module);
   bind_io(module);
   bind_study(module);

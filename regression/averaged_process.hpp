@@ -18,7 +18,7 @@ struct HyperPrior {
 /// The draws from the posterior of the hyper-parameters.
 struct AveragingOptions {
   Kernel kernel = Kernel::squared_exponential;
-  HyperPrior prior;
+  HyperPrior prior{};
   int samples = 80;   ///< ≥ 1; of n places at most 1500/n or twelve, for many places leave little to average over
   unsigned seed = 1;  ///< the same seed gives the same answer
 };

@@ -10,7 +10,9 @@ struct Calibration {
   int draws = 200;                          ///< of each of four chains, after those that are left out
   int seed = 1;                             ///< of the draws
   std::optional<int> folds;                 ///< parts of which each is predicted by the others; none: not done
-  std::optional<double> spindle_speed_rpm;  ///< for which the next cut is chosen; none: that of the case
+  std::optional<double> spindle_speed_rpm;  ///< for which the next cut is chosen; none: that of the case, if it has
+                                            ///< one, else the speed at which most is removed is to be known
+  std::optional<double> risk;  ///< the highest probability of chatter of a productive cut; none: none is proposed
 };
 
 }  // namespace thinwall::setup

@@ -22,6 +22,7 @@
 #include "setup/imported_part.hpp"
 #include "setup/loose_pieces.hpp"
 #include "setup/machining_setup.hpp"
+#include "setup/materials/cut_materials.hpp"
 #include "setup/measured.hpp"
 #include "setup/measured_frf.hpp"
 #include "setup/measured_layout.hpp"

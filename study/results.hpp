@@ -228,7 +228,9 @@ struct LearnedChart {
   learning::Calibration calibration;
   std::optional<milling::Score> before;           ///< cuts that the nominal cut predicts rightly
   std::optional<milling::Score> cross_validated;  ///< that likeliest parameters of other cuts do
-  std::optional<learning::NextCut> next;
+  std::optional<learning::NextCut> next;          ///< narrows the limit at `next_for_rpm`, without it the best speed
+  std::optional<double> next_for_rpm;
+  std::optional<learning::NextCut> productive;  ///< removes most at the wanted risk
   std::vector<Row> rows;
 };
 

@@ -1,5 +1,7 @@
 #include "app/observed/calibrate_command.hpp"
 
+#include <fmt/format.h>
+
 #include "case/reader.hpp"
 
 namespace thinwall::app {
@@ -12,6 +14,7 @@ cases::Case calibrated_case(const std::string& path, std::vector<std::string> ov
   put("draws", request.draws);
   put("seed", request.seed);
   put("folds", request.folds);
+  if (request.risk) overrides.push_back(fmt::format("calibration.risk={}", *request.risk));
   if (!request.speed.empty()) overrides.push_back("calibration.spindle_speed=" + request.speed);
   cases::Case source = cases::read_case(path, overrides);
   if (source.calibration) return source;

@@ -12,6 +12,7 @@ namespace thinwall::app {
 /// The options of the command, each put over [calibration] of the case.
 struct CalibrateRequest {
   std::optional<int> draws, seed, folds;
+  std::optional<double> risk;
   std::string speed;  ///< "9000 rpm"; empty: as the case has it
 };
 

@@ -3,14 +3,18 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <vector>
 
+#include "case/tool_file.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "io/results/csv_table.hpp"
+#include "learning/edge_force_fit.hpp"
 #include "learning/mean_force_fit.hpp"
+#include "setup/milling_process.hpp"
 
 namespace thinwall::app {
 
@@ -24,6 +28,7 @@ struct Unit {
 
 constexpr Unit lengths[] = {{"_mm", 1e-3}, {"_m", 1.0}};
 constexpr Unit forces[] = {{"_n", 1.0}, {"_kn", 1e3}};
+constexpr Unit angle_units[] = {{"_deg", std::numbers::pi / 180.0}, {"_rad", 1.0}};
 
 /// A table with its file's name for messages.
 struct Source {
@@ -60,8 +65,6 @@ struct Source {
 };
 
 double diameter_of(const CoefficientsRequest& request) {
-  if (request.diameter.empty())
-    throw core::UsageError("--diameter is missing: the angles of a radial depth follow by it; give \"10 mm\"");
   try {
     return core::parse_quantity(request.diameter, core::kind::length);
   } catch (const core::InputError& error) {
@@ -69,8 +72,36 @@ double diameter_of(const CoefficientsRequest& request) {
   }
 }
 
+/// The tool of --tool, or a plain cylinder; its diameter is 0 where it is not told.
+milling::Cutter cutter_of(const CoefficientsRequest& request) {
+  if (!request.tool.empty()) return setup::cutter_of(cases::read_tool(request.tool));
+  if (request.teeth < 1)
+    throw core::UsageError("--teeth is missing: give the number of teeth, or --tool with a file that has [tool]");
+  milling::Cutter cutter;
+  cutter.teeth = request.teeth;
+  if (!request.diameter.empty()) cutter.diameter_m = diameter_of(request);
+  return cutter;
+}
+
+/// A tool of --tool that can cut what the lines say.
+void require_fitting_tool(const milling::Cutter& cutter, const std::vector<learning::MeanForceTest>& tests) {
+  if (const auto faults = milling::validate(cutter); !faults.empty())
+    throw core::InputError("coefficients: --tool: " + faults.front());
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    if (tests[i].depth_m <= cutter.envelope.height_m) continue;
+    throw core::InputError(fmt::format(
+        "coefficients: cut {} is {:g} mm deep, must be at most the {:g} mm of the tool's length; correct either", i + 1,
+        1e3 * tests[i].depth_m, 1e3 * cutter.envelope.height_m));
+  }
+}
+
+void require_diameter(const milling::Cutter& cutter) {
+  if (cutter.diameter_m > 0.0) return;
+  throw core::UsageError("--diameter is missing: angles and edges follow by it; give \"10 mm\", or --tool");
+}
+
 /// The engagement of every line: slots where no radial depth is given.
-std::vector<milling::Engagement> engagements_of(const Source& source, const CoefficientsRequest& request,
+std::vector<milling::Engagement> engagements_of(const Source& source, const milling::Cutter& cutter,
                                                 std::size_t count) {
   const std::vector<double> radial = source.column("radial_depth", lengths);
   if (radial.empty()) return {count, milling::Engagement{0.0, std::numbers::pi}};
@@ -79,9 +110,7 @@ std::vector<milling::Engagement> engagements_of(const Source& source, const Coef
       milling_column == source.table.end() ? nullptr : std::get_if<std::vector<std::string>>(&milling_column->values);
   if (words == nullptr)
     throw core::DataError(source.file + ": radial depths need a column \"milling\" with up or down; add it");
-  milling::Cutter cutter;
-  cutter.teeth = request.teeth;
-  cutter.diameter_m = diameter_of(request);
+  require_diameter(cutter);
   std::vector<milling::Engagement> list;
   for (std::size_t i = 0; i < radial.size(); ++i) {
     const std::string& word = (*words)[i];
@@ -93,13 +122,14 @@ std::vector<milling::Engagement> engagements_of(const Source& source, const Coef
   return list;
 }
 
-std::vector<learning::MeanForceTest> tests_of(const CoefficientsRequest& request) {
-  const Source source{request.forces, io::read_csv(request.forces)};
+/// The lines of the table: each as a mean force.
+std::vector<learning::MeanForceTest> tests_of(const Source& source, const milling::Cutter& cutter,
+                                              const std::string& on) {
   const auto feeds = source.needed("feed_per_tooth", lengths), depths = source.needed("depth", lengths);
   const auto x = source.needed("force_feed", forces), y = source.needed("force_normal", forces),
              z = source.needed("force_axis", forces);
-  const auto engagements = engagements_of(source, request, feeds.size());
-  const double sign = request.on == "part" ? -1.0 : 1.0;
+  const auto engagements = engagements_of(source, cutter, feeds.size());
+  const double sign = on == "part" ? -1.0 : 1.0;
   std::vector<learning::MeanForceTest> tests;
   for (std::size_t i = 0; i < feeds.size(); ++i)
     tests.push_back({engagements[i], depths[i], feeds[i], sign * Eigen::Vector3d(x[i], y[i], z[i])});
@@ -128,19 +158,80 @@ void require_cutting(const learning::FittedCoefficient& K_t) {
                   K_t.value * 1e-6));
 }
 
+/// [cutting] of any of the fits.
+template <class Fit>
+std::string cutting_text(const Fit& fit) {
+  require_cutting(fit.K_t);
+  return "[cutting]\n" + line_of("Kt", fit.K_t, 1e-6, "N/mm^2") + line_of("Kr", fit.K_r, 1e-6, "N/mm^2") +
+         line_of("Ka", fit.K_a, 1e-6, "N/mm^2") + edge_line_of("Kte", fit.K_te) + edge_line_of("Kre", fit.K_re) +
+         edge_line_of("Kae", fit.K_ae);
+}
+
+/// The fit with edge coefficients per length of edge, which a helix makes longer than the depth.
+learning::CoefficientFit per_edge_length(learning::CoefficientFit fit, const milling::Cutter& cutter) {
+  if (!cutter.has_helix()) return fit;
+  double length = 0.0;
+  for (int tooth = 0; tooth < cutter.teeth; ++tooth)
+    length += milling::edge_length_per_height(cutter, tooth, 0.0) / cutter.teeth;
+  for (learning::FittedCoefficient* c : {&fit.K_te, &fit.K_re, &fit.K_ae})
+    *c = {c->value / length, c->deviation / length, c->half_interval / length};
+  return fit;
+}
+
+/// The equations of mean forces hold the chip and the edge of a cylinder.
+void require_cylinder(const milling::Cutter& cutter) {
+  if (learning::is_cylinder(cutter)) return;
+  throw core::InputError(
+      "coefficients: --tool has another end than a cylinder, and mean forces are those of a cylinder; give a tool with "
+      "a "
+      "flat end with which the forces were measured");
+}
+
+std::string mean_force_text(const milling::Cutter& cutter, const std::vector<learning::MeanForceTest>& tests) {
+  require_cylinder(cutter);
+  const learning::CoefficientFit fit = per_edge_length(learning::fit_mean_forces(cutter.teeth, tests), cutter);
+  return fmt::format("# {} cuts; R2 {:.5f}, residual {:.3g} N, condition {:.3g}\n", tests.size(), fit.r_squared,
+                     fit.residual_n, fit.condition) +
+         cutting_text(fit);
+}
+
+std::string runout_text(const std::vector<learning::FittedCoefficient>& runout) {
+  std::string values, intervals;
+  for (const learning::FittedCoefficient& offset : runout) {
+    values += fmt::format("{}\"{:.4g} um\"", values.empty() ? "" : ", ", 1e6 * offset.value);
+    if (offset.half_interval > 0.0) intervals += fmt::format(" {:.2g}", 1e6 * offset.half_interval);
+  }
+  return fmt::format("[tool]\nrunout = [{}]   # ±{} um with 95 %; the last one from the sum 0\n", values, intervals);
+}
+
+std::string edge_force_text(const milling::Cutter& cutter, const std::vector<learning::ForceRecord>& records) {
+  require_diameter(cutter);
+  const learning::EdgeForceFit fit = learning::fit_edge_forces(cutter, records);
+  if (!fit.converged) {
+    throw core::NumericalError(fmt::format(
+        "coefficients: the search for the runout ends unfinished after {} steps (R2 {:.3f}); with an R2 far "
+        "below 1 check that angles are those of the first tooth's tip from the normal, in the direction of "
+        "rotation, else give more angles or leave out the column of angles",
+        fit.steps, fit.r_squared));
+  }
+  return fmt::format("# {} cuts, {} degrees of freedom; R2 {:.5f}, residual {:.3g} N, condition {:.3g}\n",
+                     records.size(), fit.degrees_of_freedom, fit.r_squared, fit.residual_n, fit.condition) +
+         cutting_text(fit) + (cutter.teeth > 1 ? runout_text(fit.runout_m) : "");
+}
+
 }  // namespace
 
 std::string coefficients_of(const CoefficientsRequest& request) {
   if (request.on != "tool" && request.on != "part")
     throw core::UsageError("--on \"" + request.on + "\": write tool or part");
-  const std::vector<learning::MeanForceTest> tests = tests_of(request);
-  const learning::CoefficientFit fit = learning::fit_mean_forces(request.teeth, tests);
-  require_cutting(fit.K_t);
-  return fmt::format("# {} cuts; R2 {:.5f}, residual {:.3g} N, condition {:.3g}\n[cutting]\n", tests.size(),
-                     fit.r_squared, fit.residual_n, fit.condition) +
-         line_of("Kt", fit.K_t, 1e-6, "N/mm^2") + line_of("Kr", fit.K_r, 1e-6, "N/mm^2") +
-         line_of("Ka", fit.K_a, 1e-6, "N/mm^2") + edge_line_of("Kte", fit.K_te) + edge_line_of("Kre", fit.K_re) +
-         edge_line_of("Kae", fit.K_ae);
+  const milling::Cutter cutter = cutter_of(request);
+  const Source source{request.forces, io::read_csv(request.forces)};
+  const std::vector<learning::MeanForceTest> tests = tests_of(source, cutter, request.on);
+  if (!request.tool.empty()) require_fitting_tool(cutter, tests);
+  const std::vector<double> angles = source.column("angle", angle_units);
+  return angles.empty() ? mean_force_text(cutter, tests)
+                        : edge_force_text(cutter, learning::records_of(tests, Eigen::Map<const Eigen::VectorXd>(
+                                                                                  angles.data(), std::ssize(angles))));
 }
 
 }  // namespace thinwall::app

@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "core/units.hpp"
+#include "milling/cut/chip_load.hpp"
 #include "setup/identified/posture_tables.hpp"
+#include "setup/materials/cut_materials.hpp"
 #include "setup/milling_process.hpp"
 #include "setup/simulation_options.hpp"
 
@@ -88,6 +90,66 @@ void ask_about_robot_damping(const Case& source, std::vector<std::string>& doubt
                    ": did you mean damping_ratio = " + written + "?");
 }
 
+/// What a chart does with the spread of a material, or why it does nothing.
+std::string use_of_spread(const Case& source, double spread) {
+  if (!source.lobes || !source.lobes->robust) return "";
+  const double taken = source.lobes->robust->uncertainty.coefficients;
+  if (taken == spread) return ", which the robust chart takes";
+  return ", though the robust chart takes " + core::number_text(100.0 * taken, 2) + " % of lobes.uncertainty";
+}
+
+/// Coefficients that are those of no tool of the case.
+void ask_about_cut_material(const Case& source, std::vector<std::string>& doubts) {
+  const CaseValue* given = find(source.values, "cutting.material");
+  const auto* material = given ? std::get_if<std::string>(&given->value) : nullptr;
+  const auto middle = material ? setup::coefficients_of(*material) : std::nullopt;
+  if (!middle) return;
+  const auto named = [](const char* name, double value) {
+    return name + (" " + core::readable_text(value, core::kind::stress));
+  };
+  const bool K_t = source.cutting->Kt == middle->K_t, K_r = source.cutting->Kr == middle->K_r;
+  if (!K_t && !K_r) return;
+  const std::string taken = K_t && K_r ? named("Kt", middle->K_t) + " and " + named("Kr", middle->K_r)
+                            : K_t      ? named("Kt", middle->K_t)
+                                       : named("Kr", middle->K_r);
+  const std::string spread = K_t ? ", between which coefficients have a standard deviation of " +
+                                       core::number_text(100.0 * middle->spread, 2) + " %" +
+                                       use_of_spread(source, middle->spread)
+                                 : ", beside a Kt of your own, whose uncertainty is yours to give";
+  doubts.push_back("cutting.material " + *material + ": " + taken + (K_t && K_r ? " are" : " is") + " the middle of " +
+                   std::to_string(middle->tools) + " published tools" + spread +
+                   "; the range of chip thickness is not published; thinwall coefficients finds those of your tool");
+}
+
+std::vector<milling::Engagement> arcs_of(const setup::Cutting& cutting, const milling::Cutter& cutter) {
+  if (cutting.radial_depth) {
+    const auto direction = cutting.down_milling ? milling::MillingDirection::down : milling::MillingDirection::up;
+    return {milling::engagement_of(cutter, *cutting.radial_depth, direction)};
+  }
+  std::vector<milling::Engagement> arcs;
+  for (std::size_t i = 0; i < cutting.entry_angles.size() && i < cutting.exit_angles.size(); ++i)
+    arcs.push_back({cutting.entry_angles[i], cutting.exit_angles[i]});
+  return arcs;
+}
+
+/// Coefficients that were measured with thicker chips.
+void ask_about_thin_chips(const Case& source, std::vector<std::string>& doubts) {
+  const CaseValue* given = find(source.values, "cutting.thinnest_chip");
+  const auto* thinnest = given ? std::get_if<double>(&given->value) : nullptr;
+  if (!thinnest || !source.tool || !source.cutting) return;
+  const auto feed = setup::feed_per_tooth(source);
+  const milling::Cutter cutter = setup::cutter_of(*source.tool);
+  const auto arcs = arcs_of(*source.cutting, cutter);
+  if (!feed || arcs.empty()) return;
+  double mean = *thinnest;
+  for (const milling::ChipLoad& load : milling::chip_loads(cutter, arcs, *feed))
+    if (load.mean_thickness_m > 0.0) mean = std::min(mean, load.mean_thickness_m);
+  if (!(mean < *thinnest)) return;
+  doubts.push_back("the mean chip is " + core::readable_text(mean, core::kind::length) +
+                   " thick, thinner than cutting.thinnest_chip, " + core::readable_text(*thinnest, core::kind::length) +
+                   ", at which the coefficients were measured; thin chips take more force per area");
+}
+
 /// More turns than the part is long.
 void ask_about_turns(const Case& source, std::vector<std::string>& doubts) {
   if (!source.simulation || !source.part || !source.cutting || !source.tool || source.simulation->length_m) return;
@@ -112,6 +174,8 @@ std::vector<std::string> doubts_about(const Case& source) {
   ask_about_materials(source, doubts);
   ask_about_robot_damping(source, doubts);
   ask_about_turns(source, doubts);
+  ask_about_cut_material(source, doubts);
+  ask_about_thin_chips(source, doubts);
   if (const setup::TabledRobot* robot = setup::tabled_robot(source.robot)) {
     const std::vector<std::string> of_postures = setup::doubts_about(*robot);
     doubts.insert(doubts.end(), of_postures.begin(), of_postures.end());

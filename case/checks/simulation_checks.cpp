@@ -29,6 +29,12 @@ void check_points(const Case& source, Findings& findings) {
   for (const std::string& text : *texts) {
     try {
       const milling::OperatingPoint point = operating_point(text);
+      constexpr double slowest_rpm = 1.0, fastest_rpm = 1e6;
+      if (!(point.spindle_speed_rpm >= slowest_rpm && point.spindle_speed_rpm <= fastest_rpm))
+        findings.report("simulation.at", "\"" + text + "\" is no spindle speed in machining: these lie between " +
+                                             core::readable_text(slowest_rpm, core::kind::spindle_speed) + " and " +
+                                             core::readable_text(fastest_rpm, core::kind::spindle_speed) +
+                                             "; check number and unit");
       for (const double height : source.simulation->wall_heights_m) {
         if (height > point.depth_m)
           findings.report("simulation.wall_heights", length(height) + " is above the depth of \"" + text +
@@ -108,6 +114,11 @@ void check_means(const Case& source, const milling::SimulationOptions& options, 
 
 void check_record(const Case& source, double feed_per_tooth_m, Findings& findings) {
   const setup::Simulation& simulation = *source.simulation;
+  const double radius_m = 0.5 * source.tool->diameter;
+  if (feed_per_tooth_m >= radius_m)
+    findings.report(findings.given("cutting.feed_per_tooth") ? "cutting.feed_per_tooth" : "cutting.feed_rate",
+                    length(feed_per_tooth_m) + " a tooth, must be below the cutter's radius of " + length(radius_m) +
+                        ": teeth would miss the material between them; check number and unit");
   const std::optional<double> longest = longest_path(source);
   if (simulation.length_m && longest && *simulation.length_m > *longest)
     findings.report("simulation.length", length(*simulation.length_m) + " is more than the part's extent of " +

@@ -119,7 +119,8 @@ inline constexpr Belonging case_belongings[] = {
     {"tool.tip_angle", "tool.end", "general"},
     {"tool.taper", "tool.end", "general"},
 
-    {"cutting.Kt", "cutting.law", "linear|power|fractional", belongings::needed},
+    {"cutting.material", "cutting.law", "linear"},
+    {"cutting.Kt", "cutting.law", "linear|power|fractional", belongings::needed, "cutting.material"},
     {"cutting.exponents", "cutting.law", "power", belongings::needed},
     {"cutting.chip_scale", "cutting.law", "fractional", belongings::needed},
     {"cutting.stiffness_ratio", "cutting.law", "fractional", belongings::needed},

@@ -165,6 +165,10 @@ Json told(const Schema& schema, const Telling& telling) {
   return result;
 }
 
+Json requiring(std::string_view path) {
+  return {{"required", Json::array({bare(last_name(path))})}};
+}
+
 /// The schema of a table whose chooser has one word: it requires the keys that the word needs and forbids those of
 /// others.
 Json branch(const Schema& schema, const Key& chooser, const std::string& word) {
@@ -180,6 +184,8 @@ Json branch(const Schema& schema, const Key& chooser, const std::string& word) {
     if (table == nullptr) continue;
     if (foreign) {
       (*table)["properties"][bare(last_name(rest))] = false;
+    } else if (!belonging.unless.empty()) {
+      (*table)["allOf"].push_back({{"anyOf", {requiring(rest), requiring(belonging.unless)}}});
     } else {
       (*table)["required"].push_back(bare(last_name(rest)));
     }

@@ -67,10 +67,11 @@ struct Section {
 
 /// A key or table of an alternative: it may stand only where another key, the chooser, has one of certain words.
 struct Belonging {
-  std::string_view path;     ///< of the key or table, "contacts[].ball"; a table goes before what it holds
-  std::string_view chooser;  ///< a key of the same table or of one around it, "contacts[].model"
-  std::string_view words;    ///< the chooser's words, separated by '|'
-  bool needed = false;       ///< must be given with each of these words
+  std::string_view path;         ///< of the key or table, "contacts[].ball"; a table goes before what it holds
+  std::string_view chooser;      ///< a key of the same table or of one around it, "contacts[].model"
+  std::string_view words;        ///< the chooser's words, separated by '|'
+  bool needed = false;           ///< must be given with each of these words
+  std::string_view unless = {};  ///< a key of the same table that gives it, too
 };
 
 /// The word of a chooser that is not given, told by another key that is. The first that applies counts.

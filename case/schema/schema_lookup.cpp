@@ -116,6 +116,8 @@ std::string alternative_text(const Belonging& belonging, std::string_view table)
 
 /// The default of a key on the page.
 std::string default_cell(const Key& key, const Belonging* belonging) {
+  if (belonging != nullptr && belonging->needed && !belonging->unless.empty())
+    return "required, or `" + std::string(last_name(belonging->unless)) + "`";
   if (key.required || (belonging != nullptr && belonging->needed)) return "required";
   return key.fallback.empty() ? "–" : "`" + std::string(key.fallback) + "`";
 }

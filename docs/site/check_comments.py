@@ -12,7 +12,7 @@ import pathlib
 import re
 import sys
 
-FOLDERS = ("core", "dynamics", "linalg", "mesh", "fem", "reduction", "robot", "coupling", "regression", "identification",
+FOLDERS = ("core", "dynamics", "linalg", "distributed", "mesh", "fem", "reduction", "robot", "coupling", "regression", "identification",
            "milling", "learning", "posture", "io", "case", "setup", "study", "report", "app", "thinwall", "python")
 FIRST_WORDS = re.compile(r"(What|Where|How|Whether|The same|Of the)\b")
 COMMENT = re.compile(r"\s*(///?)(?:\s+(.*))?$")

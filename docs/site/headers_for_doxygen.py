@@ -13,7 +13,7 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-FOLDERS = ("core", "dynamics", "linalg", "mesh", "fem", "reduction", "robot", "coupling", "regression", "identification", "milling", "learning",
+FOLDERS = ("core", "dynamics", "linalg", "distributed", "mesh", "fem", "reduction", "robot", "coupling", "regression", "identification", "milling", "learning",
            "posture", "io", "setup", "case", "study")
 HEAD = re.compile(r"\A#pragma once\n((?://(?!/).*\n)+)")
 INSTANTIATION = re.compile(r"^extern template [^;]*;", re.M)

@@ -149,7 +149,7 @@ std::int64_t number_within(const NetcdfVariable& variable, std::size_t bytes) {
     if (length < 0 || (length > 0 && number > most / length)) return -1;
     number *= length;
   }
-  return number;
+  return number <= most ? number : -1;  // a variable without dimensions has one value
 }
 
 }  // namespace

@@ -100,15 +100,20 @@ void number_nodes(const Source& source, std::vector<int>& nodes) {
 }
 
 std::vector<dynamics::NodeDof> dofs_of(const Source& source, std::size_t count) {
+  const NetcdfVariable* variable = source.find("cbmap");
+  if (variable == nullptr || count == 0) return {};
+  if (variable->size != std::vector<std::int64_t>{static_cast<std::int64_t>(count), 2}) {
+    std::string shape;
+    for (const std::int64_t length : variable->size) shape += (shape.empty() ? "" : " x ") + std::to_string(length);
+    source.fail("the variable cbmap is " + (shape.empty() ? "one number" : shape) + ", not " + std::to_string(count) +
+                " x 2: node and component of each row of Kr");
+  }
   const std::vector<int> map = labels(source, "cbmap");
-  if (map.empty()) return {};
-  if (map.size() != 2 * count)
-    source.fail("the variable cbmap has " + std::to_string(map.size()) + " numbers, not two for each of the " +
-                std::to_string(count) + " rows of Kr");
   std::vector<int> nodes;
   for (std::size_t i = 0; i < count; ++i) nodes.push_back(map[2 * i]);
   number_nodes(source, nodes);
   int next_mode = std::max(0, *std::ranges::max_element(nodes));
+  for (const int number : labels(source, "node_num_map")) next_mode = std::max(next_mode, number);
   std::vector<dynamics::NodeDof> dofs;
   for (std::size_t i = 0; i < count; ++i) {
     const int component = map[2 * i + 1];

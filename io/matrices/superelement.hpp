@@ -14,10 +14,10 @@
 namespace thinwall::io {
 
 /// The superelement in a NetCDF file's bytes, in the units of the file. The amplitude of the k-th mode (from 1) gets
-/// the number of the largest node plus k. Nodes of cbmap are the numbers of node_num_map if all of them occur there,
-/// else places in that map, from 1. Without cbmap the model has no DOFs, and is not consistent until it gets them.
-/// `path` is for messages. Throws DataError that names the file and the variable that is missing or of another shape.
-/// Cost O(bytes).
+/// the number of the largest node, of cbmap and node_num_map, plus k. Nodes of cbmap are the numbers of node_num_map if
+/// all of them occur there, else places in that map, from 1. Without cbmap the model has no DOFs, and is not consistent
+/// until it gets them. `path` is for messages. Throws DataError that names the file and the variable that is missing or
+/// of another shape. Cost O(bytes).
 [[nodiscard]] dynamics::SparseModel read_superelement(std::string_view bytes, const std::string& path);
 
 }  // namespace thinwall::io

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "mesh/surface/smooth_patches.hpp"
 #include "mesh/surface/wall_thickness.hpp"
 
 namespace thinwall::mesh {
@@ -16,8 +17,6 @@ namespace {
 
 constexpr double thicknesses_per_size = 9.0;
 constexpr double smallest_sizes_per_diagonal = 8.0;
-constexpr double deviation_per_thickness = 0.05;
-constexpr double planar_rad = 1e-6;
 
 /// The integral ∫ (1 − s²)^½ / s ds, up to a constant.
 double stretch_integral(double s) {
@@ -95,6 +94,7 @@ void validate(const SurfaceSize& size) {
   check(wrong, "layer_width_m", size.layer_width_m, 0.0, 1e6);
   check(wrong, "layer_ratio", size.layer_ratio, 0.05, 0.8);
   check(wrong, "turn_rad", size.turn_rad, 0.01, 1.0);
+  check(wrong, "deviation", size.deviation, 0.01, 0.5);
   check(wrong, "sharp_angle_rad", size.sharp_angle_rad, 0.05, 2.0);
   for (const auto& region : size.refined)
     if (std::holds_alternative<PlaneRegion>(region)) wrong += wrong.empty() ? "a plane to refine at" : ", a plane too";
@@ -103,7 +103,11 @@ void validate(const SurfaceSize& size) {
 
 SizeSpace::SizeSpace(const TriangleSurface& surface, const SurfaceFeatures& features,
                      const std::vector<double>& thickness, const SurfaceSize& size)
-    : surface_(surface), normals_(corner_normals(surface, features)), refined_(size.refined), turn_(size.turn_rad) {
+    : surface_(surface),
+      normals_(corner_normals(surface, features)),
+      refined_(size.refined),
+      turn_(size.turn_rad),
+      deviation_(size.deviation) {
   validate(size);
   // Lines are simplified so far that the distance to a line errs by a thousandth of the layers' width.
   const double thinnest = *std::min_element(thickness.begin(), thickness.end());
@@ -126,10 +130,8 @@ SizeSpace::Patch SizeSpace::make_patch(int patch, const SurfaceFeatures& feature
   result.thickness = median_thickness(surface_, thickness, triangles);
   for (const int t : triangles) result.mean_normal += area_vector(surface_, t);
   result.mean_normal.normalize();
-  result.planar = std::all_of(triangles.begin(), triangles.end(), [&](int t) {
-    return area_vector(surface_, t).normalized().cross(result.mean_normal).norm() < planar_rad;
-  });
-  for (std::size_t l = 0; l < features.lines.size(); ++l) {
+  result.planar = mesh::is_planar(surface_, triangles);
+  for (std::size_t l = 0; l < features.lines.size() && size.layers > 0; ++l) {
     const auto& sides = features.lines[l].patches;
     if (sides[0] == patch || sides[1] == patch) result.lines.push_back(static_cast<int>(l));
   }
@@ -195,7 +197,7 @@ Eigen::Vector3d SizeSpace::on_line(int line, const Eigen::Vector3d& x) const {
 }
 
 double SizeSpace::allowed_deviation_m(int patch) const {
-  return deviation_per_thickness * of(patch).thickness;
+  return deviation_ * of(patch).thickness;
 }
 
 bool SizeSpace::is_planar(int patch) const {

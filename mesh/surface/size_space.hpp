@@ -22,7 +22,8 @@ struct SurfaceSize {
   int layers = 1;              ///< 0 to 4
   double layer_width_m = 0.0;  ///< m, > 0; 0: the wall thickness of the patch
   double layer_ratio = 0.15;   ///< 0.05 to 0.8
-  double turn_rad = 0.05;  ///< turning of the surface along an edge, 0.01 to 1; a bent wall's volume errs by turn²/6
+  double turn_rad = 0.05;   ///< turning of the surface along an edge, 0.01 to 1; a bent wall's volume errs by turn²/6
+  double deviation = 0.05;  ///< distance of a triangle from a curved patch, of its wall thickness, 0.01 to 0.5
   double sharp_angle_rad = 0.5235987755982988;  ///< dihedral angle above which an edge is a feature, 0.05 to 2 (30°)
   std::vector<Region> refined;  ///< spheres and boxes (clamps, contact patches) with layers on their borders
 };
@@ -54,8 +55,8 @@ class SizeSpace {
   [[nodiscard]] Eigen::Vector3d on_patch(int patch, const Eigen::Vector3d& x) const;
   /// The point of a sharp line of the input surface nearest to x, m.
   [[nodiscard]] Eigen::Vector3d on_line(int line, const Eigen::Vector3d& x) const;
-  /// The distance by which a face of the new mesh may lie off the patch, m: 5 % of the wall. It is 0 for a planar
-  /// patch, whose faces need no check.
+  /// The distance by which a face of the new mesh may lie off the patch, m: SurfaceSize::deviation. It is 0 for a
+  /// planar patch, whose faces need no check.
   [[nodiscard]] double allowed_deviation_m(int patch) const;
   /// True if the patch is planar.
   [[nodiscard]] bool is_planar(int patch) const;
@@ -81,7 +82,8 @@ class SizeSpace {
   std::vector<Polyline> straight_lines_;                 // the same without vertices that lie on the way
   std::vector<Eigen::AlignedBox3d> line_blocks_;         // around each line
   std::vector<Region> refined_;
-  double turn_ = 1.0;  // θ
+  double turn_ = 1.0;       // θ
+  double deviation_ = 0.0;  // of the wall thickness
   std::vector<Patch> patches_;
 };
 

@@ -73,14 +73,26 @@ Remeshed remesh_to_volume(const TriangleSurface& surface, const Analysed& part, 
 }
 
 /// The remeshed surface filled by TetGen; throws NumericalError if it crosses itself.
-TetMesh filled(const TriangleSurface& remeshed, const ProcessLimits& limits) {
+TetMesh filled(const TriangleSurface& remeshed, const ProcessLimits& limits, double radius_edge_ratio = 0.0) {
   const auto crossings = self_intersections(remeshed);
   if (!crossings.empty()) {
     const Eigen::Vector3d x = 1e3 * centroid(remeshed, crossings[0][0]);
     throw core::NumericalError("the coarse surface crosses itself near (" + core::number_text(x(0), 3) + ", " +
                                core::number_text(x(1), 3) + ", " + core::number_text(x(2), 3) + ") mm");
   }
-  return tetrahedralise_as_given(faceted(remeshed), limits);
+  return tetrahedralise_as_given(faceted(remeshed), limits, radius_edge_ratio);
+}
+
+/// True if the walls beneath half of the surface are thicker than its triangles are long.
+bool is_bulky(const TriangleSurface& remeshed, double median_thickness) {
+  double edges = 0.0;
+  for (const auto& t : remeshed.triangles) {
+    for (std::size_t k = 0; k < 3; ++k)
+      edges += (remeshed.vertices[static_cast<std::size_t>(t[(k + 1) % 3])] -
+                remeshed.vertices[static_cast<std::size_t>(t[k])])
+                   .norm();
+  }
+  return edges < 3.0 * median_thickness * static_cast<double>(remeshed.triangles.size());
 }
 
 /// The mesh with its measures; throws NumericalError if it does not keep the volume or has a degenerate tetrahedron.
@@ -105,6 +117,8 @@ SurfaceMeshed judged(TetMesh mesh, const TriangleSurface& surface, const Surface
 TetMesh fill_remeshed(const TriangleSurface& surface, const Analysed& part, const SurfaceSize& size,
                       const SurfaceMeshOptions& options) {
   const Remeshed remeshed = remesh_to_volume(surface, part, size, options.volume_tolerance);
+  if (options.radius_edge_ratio > 0.0 && is_bulky(remeshed.surface, part.median))
+    return filled(remeshed.surface, options.limits, options.radius_edge_ratio);
   if (size.layers == 0) {
     try {
       return judged(filled(matched_walls(remeshed).surface, options.limits), surface, options).mesh;
@@ -167,6 +181,8 @@ std::vector<VolumeMesher> volume_meshers(const TriangleSurface& surface, const S
     SurfaceSize size = options.size;
     size.scale *= shorter;
     size.turn_rad = std::max(smallest_turn_rad, size.turn_rad * straighter);
+    size.deviation =
+        std::min(size.deviation, std::max(SurfaceSize{}.deviation, size.deviation * straighter * straighter));
     meshers.push_back({"TetGen", [part, size, of_tetgen](const TriangleSurface& input) {
                          return fill_remeshed(input, *part, size, of_tetgen);
                        }});

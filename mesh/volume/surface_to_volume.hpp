@@ -20,6 +20,10 @@ struct SurfaceMeshOptions {
   /// 1 mm wall with 40 mm elements: 2e-7); a tetrahedron below the bound is a sliver, whose stiffness entries are so
   /// large that the others are lost in their round-off.
   double smallest_shape = 1e-7;
+  /// Bound on circumradius over shortest edge of the tetrahedra of a body that is not thin, whose walls are thicker
+  /// than its triangles are long: TetGen adds points within it. 0: none, as in thin walls, where there would be
+  /// thousands.
+  double radius_edge_ratio = 0.0;
   ProcessLimits limits;  ///< of each attempt of a mesher
 };
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 
 namespace thinwall::mesh {
 
@@ -117,12 +118,13 @@ TetMesh tetrahedralise(const FacetedSurface& surface, const TetgenOptions& optio
       "; try another part.mesh.element_size, a larger part.mesh.quality (at most 5), or larger limits");
 }
 
-TetMesh tetrahedralise_as_given(const FacetedSurface& surface, const ProcessLimits& limits) {
+TetMesh tetrahedralise_as_given(const FacetedSurface& surface, const ProcessLimits& limits, double radius_edge_ratio) {
   const auto work = [&] {
     tetgenio in;
     tetgenio out;
     fill(in, surface);
     std::string switches = "pYQ";
+    if (radius_edge_ratio > 0.0) switches += "q" + core::number_text(radius_edge_ratio, 3);
     tetrahedralize(switches.data(), &in, &out);
     return tet_mesh(out);
   };

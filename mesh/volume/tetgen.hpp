@@ -32,9 +32,12 @@ struct TetgenOptions {
 /// Interrupted.
 [[nodiscard]] TetMesh tetrahedralise(const FacetedSurface& surface, const TetgenOptions& options);
 
-/// A mesh of the inside of `surface` without refinement (switch p), in which each facet is kept as it is (switch Y), so
-/// that the mesh is as coarse and as flat as the surface's triangles. The facets should be triangles: facets with
-/// isolated points on them make TetGen 1.5.0 throw. Process, checks and errors are those of tetrahedralise().
-[[nodiscard]] TetMesh tetrahedralise_as_given(const FacetedSurface& surface, const ProcessLimits& limits = {});
+/// A mesh of the inside of `surface` in which each facet is kept as it is (switches p and Y), so that the mesh is as
+/// coarse and as flat as the surface's triangles. Without `radius_edge_ratio` (0) no point is added; with it points are
+/// added within the body until the ratio of circumradius to shortest edge is below it, where the facets allow it. The
+/// facets should be triangles: facets with isolated points on them make TetGen 1.5.0 throw. Process, checks and errors
+/// are those of tetrahedralise().
+[[nodiscard]] TetMesh tetrahedralise_as_given(const FacetedSurface& surface, const ProcessLimits& limits = {},
+                                              double radius_edge_ratio = 0.0);
 
 }  // namespace thinwall::mesh

@@ -50,11 +50,8 @@ std::vector<double> breaks_of(const CutCycle& cycle) {
   return breaks;
 }
 
-}  // namespace
-
-CutCycle cut_cycle(const MillingProcess& process, double depth_m) {
+CutCycle cycle_of(const MillingProcess& process, double depth_m, bool alike) {
   const Cutter& cutter = process.cutter;
-  const bool alike = equal_teeth(process);
   CutCycle cycle{alike ? cutter.pitch_rad() : turn, alike, {}, edge_shape(cutter, depth_m).joints()};
   double tip = 0.0;
   for (int j = 0; j < (alike ? 1 : cutter.teeth); ++j) {
@@ -68,6 +65,16 @@ CutCycle cut_cycle(const MillingProcess& process, double depth_m) {
     }
   }
   return cycle;
+}
+
+}  // namespace
+
+CutCycle cut_cycle(const MillingProcess& process, double depth_m) {
+  return cycle_of(process, depth_m, equal_teeth(process));
+}
+
+CutCycle cycle_of_turn(const MillingProcess& process, double depth_m) {
+  return cycle_of(process, depth_m, false);
 }
 
 Heights heights_in_cut(const Sweep& sweep, double s) {

@@ -45,6 +45,9 @@ struct CutCycle {
 /// The cycle of a process at a depth, m.
 [[nodiscard]] CutCycle cut_cycle(const MillingProcess& process, double depth_m);
 
+/// The cycle of a turn, in which each tooth has sweeps of its own though they may be alike.
+[[nodiscard]] CutCycle cycle_of_turn(const MillingProcess& process, double depth_m);
+
 /// Stretch of the period in which some edge cuts and no joint of an edge enters or leaves.
 struct CutStretch {
   double from_rad = 0.0;

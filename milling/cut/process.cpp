@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <sstream>
 
 #include "core/error.hpp"
@@ -48,6 +49,12 @@ bool equal_teeth(const MillingProcess& process) {
     return !same_coefficients(a, b);
   };
   return process.cutter.equal_teeth() && std::adjacent_find(own.begin(), own.end(), differ) == own.end();
+}
+
+bool equal_surfaces(const MillingProcess& process) {
+  const std::vector<double>& runout = process.cutter.runout_m;
+  return equal_teeth(process) &&
+         std::adjacent_find(runout.begin(), runout.end(), std::not_equal_to<>{}) == runout.end();
 }
 
 bool elementary(const MillingProcess& process) {

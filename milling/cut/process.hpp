@@ -32,6 +32,9 @@ struct MillingProcess {
 /// True if the cut repeats itself with every tooth: equal pitches, helices and coefficients.
 [[nodiscard]] bool equal_teeth(const MillingProcess& process);
 
+/// True if every tooth leaves the surface that the one before it left: equal teeth without runout.
+[[nodiscard]] bool equal_surfaces(const MillingProcess& process);
+
 /// True if A(t) of cutting_force.hpp says it all: equal teeth without helix on a cylinder, one arc, no process damping.
 /// Methods that know nothing else refuse what is not.
 [[nodiscard]] bool elementary(const MillingProcess& process);

@@ -9,6 +9,12 @@
 
 namespace thinwall::milling {
 
+void count(Score& score, CutOutcome outcome, bool chatter_is_predicted) {
+  if (outcome == CutOutcome::marginal) return;
+  ++score.of;
+  score.right += chatter_is_predicted == (outcome == CutOutcome::chatter) ? 1 : 0;
+}
+
 double share(const Score& score) {
   return score.of > 0 ? static_cast<double>(score.right) / score.of : std::numeric_limits<double>::quiet_NaN();
 }

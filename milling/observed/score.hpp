@@ -1,6 +1,8 @@
 #pragma once
 // The share of predictions that came true, with its confidence interval.
 
+#include "milling/observed/observed_cut.hpp"
+
 namespace thinwall::milling {
 
 /// A number of cuts, and how many of them were predicted rightly.
@@ -8,6 +10,9 @@ struct Score {
   int right = 0;
   int of = 0;
 };
+
+/// Counts a cut by its outcome and by whether it is predicted to chatter; a marginal one is not counted.
+void count(Score& score, CutOutcome outcome, bool chatter_is_predicted);
 
 /// The ends of an interval of shares.
 struct ShareInterval {

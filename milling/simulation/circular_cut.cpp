@@ -65,7 +65,7 @@ Eigen::VectorXd at_rest(const ContactState& structure, const Eigen::Vector3d& fo
 }
 
 CutState at_rest(const CircularCut& cut, const Eigen::Vector3d& force_n) {
-  CutState state{at_rest(cut.structure, force_n), {}};
+  CutState state{at_rest(cut.structure, force_n), {}, std::vector<unsigned char>(cut.grid.points.size(), 1)};
   const Eigen::Vector3d q = cut.structure.motion * state.modes + cut.residual * force_n;
   for (const CutPoint& p : cut.grid.points) {
     const Disc& disc = cut.grid.discs[static_cast<std::size_t>(p.disc)];

@@ -42,8 +42,9 @@ struct CircularCut {
 
 /// The state that a period hands on to the next.
 struct CutState {
-  Eigen::VectorXd modes;          ///< as in ContactState
-  std::vector<double> surface_m;  ///< left by each point of MarchGrid::points, along its normal, in the moving frame
+  Eigen::VectorXd modes;             ///< as in ContactState
+  std::vector<double> surface_m;     ///< left by each point of MarchGrid::points, along its normal, in the moving frame
+  std::vector<unsigned char> fresh;  ///< 1 where that point cut it, 0 where it is that of an earlier tooth
 };
 
 /// The state of a structure at rest under a constant force on the tool, tool axes, N: x = −Λ⁻¹ B f.

@@ -1,6 +1,7 @@
 #include "milling/simulation/exact_path.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "milling/simulation/chip_force.hpp"
@@ -62,8 +63,8 @@ SimulatedCut march(const PathCut& cut, const Tool& tool, const MillingProcess& p
                    const Stock& stock, const SimulationOptions& options, const TurnObserver& after_turn) {
   double farthest = 0.0;
   for (const ToothDisc& disc : cut.discs) farthest = std::max(farthest, disc.earlier.back().ahead_rad);
-  const auto remembered = static_cast<std::size_t>((farthest + 1.0) / cut.node_rad) + 16;
-  EarlierPaths material(stock, cut.feed_per_node_m, cut.node_rad, cut.start_m.head<2>(), remembered);
+  const auto remembered = static_cast<std::size_t>((farthest + 0.5 * std::numbers::pi) / cut.node_rad) + 16;
+  EarlierPaths material(stock, cut.radius_m, cut.feed_per_node_m, cut.node_rad, cut.start_m.head<2>(), remembered);
   return with_chip_force(process, law, [&](const auto& chip_force) {
     return over_path(cut, tool, material, chip_force, process, options, after_turn);
   });
@@ -79,7 +80,7 @@ std::vector<std::string> validate(const PathOptions& options) {
   }
   if (options.earlier_passes < 1 || options.earlier_passes > 1000) {
     violations.push_back("simulation: " + std::to_string(options.earlier_passes) +
-                         " earlier passes, must be 1 to 1000; 10 are usual");
+                         " earlier passes, must be 1 to 1000; 60 are usual");
   }
   return violations;
 }

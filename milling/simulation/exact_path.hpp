@@ -19,7 +19,7 @@ namespace thinwall::milling {
 /// The fineness of exact paths, besides that of SimulationOptions, whose steps in the cut have no meaning here.
 struct PathOptions {
   int steps_a_turn = 720;                       ///< ≥ 24
-  int earlier_passes = 10;                      ///< ≥ 1 and at most 1000: of teeth, whose surfaces a tooth may meet
+  int earlier_passes = 60;                      ///< ≥ 1 and at most 1000: of teeth, whose surfaces a tooth may meet
   std::optional<OneSidedContact> contact = {};  ///< of a support, that may open
 };
 
@@ -37,8 +37,8 @@ void require_whole_steps(const SimulationOptions& options, int steps_a_turn);
 ///     D = C(t − s) − C(t),   s = (P_k + ε)/Ω
 ///
 /// with P_k the angle from the tooth to the k-th one ahead of it (Huynh 2017 removes the same region by polygons; a
-/// point of an earlier path lies on the ray where D + R_k n(φ − ε) has no part along t). s is found by fixed-point
-/// iterations, which contract by v/(R Ω); C between nodes is a cubic. So teeth on trochoids, the entry into a border, a
+/// point of an earlier path lies on the ray where D + R_k n(φ − ε) has no part along t). s is found by Newton's
+/// method to 1e-12 (earlier_paths.hpp); C between nodes is a cubic. So teeth on trochoids, the entry into a border, a
 /// contact that vibration moves, runout and any pitch are in it. Before the simulation begins the tool did not vibrate.
 /// Forces and motion are those of a step as in march_step.hpp, at equal steps of a turn; the contact of a tooth that
 /// enters within a step is known to that step.

@@ -15,8 +15,9 @@ constexpr double eigenvalue_tolerance = 1e-10;
 constexpr double any_feed_m = 1e-4;  // drops out
 
 /// Without an estimate.
-SimulatedGrowth growth_with(const RelativeStructure& structure, const MillingProcess& process, double rpm,
-                            double depth_m, const StepOptions& options) {
+SimulatedGrowth growth_with(const RelativeStructure& structure, MillingProcess process, double rpm, double depth_m,
+                            const StepOptions& options) {
+  process.cutter.runout_m.clear();  // drops out as well, and would make the period a turn
   const CircularCut cut = circular_cut(structure, process, rpm, depth_m, any_feed_m, options);
   const LinearVariation force{coefficients_of_teeth(process), per_slope(process.damping, process.cutter)};
   March march(cut, force);

@@ -69,16 +69,30 @@ class March {
     return {c_.grid.first_point[i], c_.grid.first_point[i + 1]};
   }
 
+  /// The surface that the tooth ahead of a point has left. A polynomial through a surface that it did not cut would
+  /// take one from what was such a polynomial already, turn after turn, and could grow without bound; there it is kept
+  /// between the values on either side, as in a quasi-monotone interpolation (Bermejo & Staniforth 1992).
+  double surface_ahead(const CutPoint& point, const CutState& state) const {
+    const PastSurface* past = &c_.grid.pasts[static_cast<std::size_t>(point.first_past)];
+    double surface = 0.0;
+    bool fresh = true;
+    for (int k = 0; k < point.pasts; ++k) {
+      const auto of = static_cast<std::size_t>(past[k].point);
+      surface += past[k].weight * state.surface_m[of];
+      fresh = fresh && state.fresh[of] != 0;
+    }
+    if (!ChipForce::loses_contact || fresh || point.pasts == 1) return surface;
+    const auto [low, high] = std::minmax(state.surface_m[static_cast<std::size_t>(past[0].point)],
+                                         state.surface_m[static_cast<std::size_t>(past[1].point)]);
+    return std::clamp(surface, low, high);
+  }
+
   /// The surfaces that the points of a node meet.
   void meet(int node, const CutState& state, Surfaces& surfaces) const {
     const Points p = points_of(node);
     for (int i = p.first; i < p.end; ++i) {
       const CutPoint& point = c_.grid.points[static_cast<std::size_t>(i)];
-      double surface = 0.0;
-      for (int k = point.first_past; k < point.first_past + point.pasts; ++k) {
-        const PastSurface& past = c_.grid.pasts[static_cast<std::size_t>(k)];
-        surface += past.weight * state.surface_m[static_cast<std::size_t>(past.point)];
-      }
+      const double surface = surface_ahead(point, state);
       surfaces.met[static_cast<std::size_t>(i - p.first)] =
           ChipForce::loses_contact ? surface - point.feed_chip_m : surface;
     }
@@ -89,8 +103,7 @@ class March {
     const Points p = points_of(node);
     at.force_n.setZero();
     at.torque_n_m = at.thickest_chip_m = 0.0;
-    at.points = p.end - p.first;
-    at.without_contact = 0;
+    at.points = at.without_contact = 0;
     for (int i = p.first; i < p.end; ++i) {
       const auto k = static_cast<std::size_t>(i - p.first);
       const CutPoint& point = c_.grid.points[static_cast<std::size_t>(i)];
@@ -98,12 +111,13 @@ class March {
       const auto along_normal = [&](const Vector& v) {
         return disc.sin_kappa * (point.sine * v[0] + point.cosine * v[1]) - disc.cos_kappa * v[2];
       };
+      at.points += !point.at_rim;
       double position = along_normal(at.displacement_m);
       if (ChipForce::loses_contact) position += point.runout_m;
       surfaces.position[k] = position;
       const double chip = position - surfaces.met[k];
       if (ChipForce::loses_contact && chip <= 0.0) {
-        if (chip < -contact_hair_m) ++at.without_contact;  // chips end at zero where a tooth leaves the cut
+        at.without_contact += !point.at_rim && chip < -contact_hair_m;
         continue;
       }
       at.thickest_chip_m = std::max(at.thickest_chip_m, chip);
@@ -120,8 +134,9 @@ class March {
     const Points p = points_of(node);
     for (int i = p.first; i < p.end; ++i) {
       const auto k = static_cast<std::size_t>(i - p.first);
-      state.surface_m[static_cast<std::size_t>(i)] =
-          ChipForce::loses_contact ? std::max(surfaces.met[k], surfaces.position[k]) : surfaces.position[k];
+      const bool cuts = !ChipForce::loses_contact || surfaces.position[k] >= surfaces.met[k];
+      state.surface_m[static_cast<std::size_t>(i)] = cuts ? surfaces.position[k] : surfaces.met[k];
+      state.fresh[static_cast<std::size_t>(i)] = cuts;
     }
   }
 

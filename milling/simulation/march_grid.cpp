@@ -22,7 +22,7 @@ struct DiscCycle {
 };
 
 DiscCycle disc_cycle(const MillingProcess& process, double depth_m, const std::vector<Disc>& discs) {
-  const CutCycle edges = cut_cycle(process, depth_m);
+  const CutCycle edges = equal_surfaces(process) ? cut_cycle(process, depth_m) : cycle_of_turn(process, depth_m);
   DiscCycle result{{edges.period_rad, edges.equal_teeth, {}, {0.0, 1.0}}, {}};
   for (const Sweep& edge : edges.sweeps) {
     for (std::size_t d = 0; d < discs.size(); ++d) {
@@ -105,7 +105,8 @@ class Builder {
         const double runout = process_.cutter.runout_m.empty() ? 0.0 : process_.cutter.runout_m[tooth];
         grid_.points.push_back({std::sin(phi), std::cos(phi),
                                 feed_m_per_rad_ * sweep.pitch_rad * disc.sin_kappa * std::sin(phi),
-                                runout * disc.sin_kappa, edge_share(process_, disc, sweep.tooth), d, sweep.tooth});
+                                runout * disc.sin_kappa, edge_share(process_, disc, sweep.tooth), d, sweep.tooth,
+                                pass.since_entry_rad < hair || pass.since_entry_rad > sweep.arc_rad - hair});
       }
     }
   }
@@ -177,7 +178,11 @@ class Builder {
         std::clamp(static_cast<int>(std::floor(nodes_before)) - (window / 2 - 1), 0, 2 * stretch.steps + 1 - window);
     const Eigen::VectorXd weights =
         lagrange_polynomials(Eigen::VectorXd::LinSpaced(window, first, first + window - 1), nodes_before);
-    for (int k = 0; k < window; ++k) grid_.pasts.push_back({point(first + k), weights(k)});
+    std::vector<int> order;  // the two about the moment come first
+    for (int k = 0; k < window; ++k) order.push_back(k);
+    std::sort(order.begin(), order.end(),
+              [&](int a, int b) { return std::abs(first + a - nodes_before) < std::abs(first + b - nodes_before); });
+    for (const int k : order) grid_.pasts.push_back({point(first + k), weights(k)});
   }
 
   void add_tips() {

@@ -43,7 +43,8 @@ struct CutPoint {
   double edge_share = 1.0;          ///< length of edge over width of cut, dS/db
   int disc = 0;
   int tooth = 0;
-  int first_past = 0, pasts = 1;  ///< of MarchGrid::pasts
+  bool at_rim = false;            ///< where the disc enters or leaves: neither in contact nor without
+  int first_past = 0, pasts = 1;  ///< of MarchGrid::pasts; of several, the first two lie on either side of the moment
 };
 
 /// Steps of equal length between moments at which a disc of a tooth enters or leaves the cut. A step has three nodes:
@@ -65,8 +66,8 @@ struct TipPass {
   double arc_rad = 0.0;
 };
 
-/// One period of the cut, after which it repeats itself: a pitch where all teeth are alike, else a turn. It begins when
-/// the tip of the first tooth enters the first arc.
+/// One period of the cut, after which it repeats itself: a pitch where all teeth leave one surface, else a turn. It
+/// begins when the tip of the first tooth enters the first arc.
 struct MarchGrid {
   double period_rad = 0.0;
   int periods_a_turn = 1;

@@ -11,6 +11,12 @@ namespace {
 constexpr Eigen::Index longest_period = 24;
 constexpr double growth_that_counts = 1.5;
 
+/// The largest change from one sample to the next among `count` of them.
+double largest_change(const Eigen::MatrixXd& samples, Eigen::Index first, Eigen::Index count) {
+  if (count < 2) return 0.0;
+  return (samples.middleCols(first + 1, count - 1) - samples.middleCols(first, count - 1)).colwise().norm().maxCoeff();
+}
+
 double spread(const Eigen::MatrixXd& samples) {
   return samples.size() == 0 ? 0.0 : (samples.rowwise().maxCoeff() - samples.rowwise().minCoeff()).norm();
 }
@@ -18,7 +24,7 @@ double spread(const Eigen::MatrixXd& samples) {
 }  // namespace
 
 std::string name(Motion motion) {
-  constexpr std::array<const char*, 4> names{"periodic", "period_n", "quasi_periodic", "growing"};
+  constexpr std::array<const char*, 5> names{"periodic", "period_n", "quasi_periodic", "growing", "settling"};
   return names[static_cast<std::size_t>(motion)];
 }
 
@@ -36,9 +42,20 @@ MotionKind motion_kind(const Eigen::MatrixXd& samples, double size, double toler
     return {n == 1 ? Motion::periodic : Motion::period_n, static_cast<int>(n), difference};
   }
   const Eigen::Index quarter = count / 4;
+  const double before = largest_change(samples, quarter, quarter);
+  if (before > 0.0) kind.trend = largest_change(samples, count - quarter, quarter) / before;
   if (spread(samples.rightCols(quarter)) > growth_that_counts * spread(samples.middleCols(quarter, quarter)))
     kind.motion = Motion::growing;
   return kind;
+}
+
+MotionKind kind_beside_decay(const MotionKind& kind) {
+  constexpr double smaller = 0.95;
+  const bool without_period = kind.motion == Motion::quasi_periodic || kind.motion == Motion::growing;
+  if (!without_period || !(kind.trend < smaller)) return kind;
+  MotionKind settling = kind;
+  settling.motion = Motion::settling;
+  return settling;
 }
 
 }  // namespace thinwall::milling

@@ -12,6 +12,7 @@ enum class Motion {
   period_n,        ///< repeats itself after n ≥ 2 periods: flip chatter and its like
   quasi_periodic,  ///< bounded, without a period up to 24: Hopf chatter, or chaos
   growing,         ///< the second half of the record is larger by half than the first
+  settling,        ///< not settled: it has no period yet, and its changes become smaller where small ones decay
 };
 
 /// The kind in one word, as files have it.
@@ -23,6 +24,8 @@ struct MotionKind {
   int period = 1;           ///< in periods of the cut; 0 where there is none
   double difference = 0.0;  ///< largest change of a sample after that period, over the size of the motion; where there
                             ///< is none, the least of all that were tried
+  double trend = 1.0;  ///< of a motion without a period: the largest change from sample to sample in the last quarter,
+                       ///< over that in the second
 };
 
 /// Samples are columns (components × samples), `size` the peak to peak value of the motion that they are samples of.
@@ -30,5 +33,9 @@ struct MotionKind {
 /// motion without one is growing if the spread of the last quarter of the samples exceeds that of the second quarter by
 /// half of it. At least 2 samples. Cost O(24 samples).
 [[nodiscard]] MotionKind motion_kind(const Eigen::MatrixXd& samples, double size, double tolerance = 1e-4);
+
+/// The kind where small vibrations are known to decay: a motion without a period whose changes become smaller, trend
+/// below 0.95, is `settling`; one whose changes stay is chatter that exists beside the stable motion.
+[[nodiscard]] MotionKind kind_beside_decay(const MotionKind& kind);
 
 }  // namespace thinwall::milling

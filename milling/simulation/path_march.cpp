@@ -28,6 +28,7 @@ PathCut path_cut(const MillingProcess& process, const SimulatedPoint& point, con
   cut.width_m = width_of_cut(cut.discs, process.cutter);
   cut.radius_m = 0.5 * process.cutter.diameter_m;
   cut.tips = tips_of_turn(process);
+  cut.alike = equal_surfaces(process) && steps_a_turn % process.cutter.teeth == 0;
   return cut;
 }
 

@@ -23,7 +23,8 @@ namespace thinwall::milling {
 struct DiscRay {
   double sine = 0.0, cosine = 0.0;  ///< of φ
   bool found = false;               ///< the material was looked for, and lies on the ray
-  bool in_cut = false;              ///< the ray crosses the stock, which earlier teeth may have taken away
+  bool in_cut = false;              ///< the tip lies in the stock, which earlier teeth may have taken away
+  bool lost = false;                ///< the surface may be another one than that which was found
   double farthest_m = 0.0;          ///< from the centre up to the surface
   Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< the centre from which it was found
 
@@ -53,6 +54,7 @@ struct PathCut {
   Eigen::VectorXd start;                              ///< state when the simulation begins
   Eigen::Vector3d start_m = Eigen::Vector3d::Zero();  ///< and the displacement then, tool axes
   std::vector<TipPass> tips;
+  bool alike = false;  ///< the teeth leave one surface, and meet nodes of the march at the same angles
   std::optional<OneSidedContact> contact;
 };
 
@@ -79,6 +81,7 @@ class PathMotion {
   /// Keeps references to all but the tool, which is at `cut.start_m` when the simulation begins.
   PathMotion(const PathCut& cut, Tool tool, Material& material, const ChipForce& chip_force)
       : c_(cut), tool_(std::move(tool)), material_(material), chip_force_(chip_force), periods_{cut.tips,
+                                                                                                cut.alike,
                                                                                                 2.0 * std::numbers::pi,
                                                                                                 1,
                                                                                                 2 * cut.steps_a_turn,
@@ -99,6 +102,7 @@ class PathMotion {
   template <class Observer>
   long over_period(Observer& see) {
     long unsettled = 0;
+    surfaces_lost_ = 0;
     for (int i = 0; i < c_.steps_a_turn; ++i) {
       step_.from_rad = i * step_.step_rad;
       unsettled += over_step();
@@ -108,6 +112,9 @@ class PathMotion {
     }
     return unsettled;
   }
+
+  /// Nodes of the last period at which the surface before a tooth was not known.
+  [[nodiscard]] long surfaces_lost() const { return surfaces_lost_; }
 
   /// False once the vibration has outgrown the radius.
   [[nodiscard]] bool within(double radius_m) const { return tool_.within(radius_m); }
@@ -160,6 +167,8 @@ class PathMotion {
     turn_to(1);
     turn_to(2);
     const int unsettled = tool_.over_step(step_, [&](std::size_t c, MarchNode& at) { load(c, at); });
+    for (const std::size_t c : {std::size_t{1}, std::size_t{2}})
+      surfaces_lost_ += std::any_of(rays_[c].begin(), rays_[c].end(), [](const DiscRay& ray) { return ray.lost; });
     PathStep accepted{node_, {}, rays_};
     for (const std::size_t c : {std::size_t{0}, std::size_t{1}, std::size_t{2}})
       accepted.centre[c] = fed(c) + step_.at[c].displacement_m.template head<2>();
@@ -177,6 +186,7 @@ class PathMotion {
   MarchStep step_;
   std::array<std::vector<DiscRay>, 3> rays_;  ///< of each node of the step and each disc
   long node_ = 0;                             ///< where the step begins
+  long surfaces_lost_ = 0;
 };
 
 /// over_turns() of a tool in a material. The tool is copied.

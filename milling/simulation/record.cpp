@@ -35,18 +35,6 @@ const Eigen::Vector3d& force_of(const MarchNode& node) {
   return node.force_n;
 }
 
-/// Displacement and velocity at the entries of the first tooth, a column each: once a period.
-Eigen::MatrixXd entries_of_first_tooth(const SimulatedCut& cut, double rad_per_s) {
-  std::vector<const ToothPass*> of_first;
-  for (const ToothPass& pass : cut.passes) {
-    if (pass.tooth == 0) of_first.push_back(&pass);
-  }
-  Eigen::MatrixXd samples(6, static_cast<Eigen::Index>(of_first.size()));
-  for (std::size_t i = 0; i < of_first.size(); ++i)
-    samples.col(static_cast<Eigen::Index>(i)) << of_first[i]->entry_m, of_first[i]->entry_m_s / rad_per_s;
-  return samples;
-}
-
 /// The slope at a rotation of the parabola through the displacements of a step, m/rad.
 Eigen::Vector3d slope_at(const MarchStep& step, double rotation) {
   const double s = (rotation - step.from_rad) / step.step_rad;
@@ -57,9 +45,10 @@ Eigen::Vector3d slope_at(const MarchStep& step, double rotation) {
 
 }  // namespace
 
-Record::Record(const std::vector<TipPass>& tips, double rad_per_s, const SimulationOptions& options,
+Record::Record(const std::vector<TipPass>& tips, bool alike, double rad_per_s, const SimulationOptions& options,
                SimulatedCut& result)
     : tips_(tips),
+      alike_(alike),
       rad_per_s_(rad_per_s),
       sample_rad_(2.0 * std::numbers::pi / options.samples_a_turn),
       kept_(static_cast<std::size_t>(options.kept_passes)),
@@ -152,8 +141,11 @@ void Record::take_passes(const MarchStep& step) {
       if (passes_.size() > kept_) passes_.pop_front();
     }
     if (tip.entry_rad >= step.from_rad - hair && tip.entry_rad < to - hair) {
-      pass = ToothPass{tip.tooth, period_start_s_ + tip.entry_rad / rad_per_s_, position(tip.entry_rad),
-                       slope_at(step, tip.entry_rad) * rad_per_s_, Eigen::Vector3d::Zero()};
+      const Eigen::Vector3d entry = position(tip.entry_rad), slope = slope_at(step, tip.entry_rad);
+      pass = ToothPass{tip.tooth, period_start_s_ + tip.entry_rad / rad_per_s_, entry, slope * rad_per_s_,
+                       Eigen::Vector3d::Zero()};
+      if (i == 0 || alike_) samples_.emplace_back() << entry, slope;
+      if (samples_.size() > kept_) samples_.pop_front();
     }
   }
 }
@@ -169,7 +161,8 @@ void Record::finish(double recorded_rad) {
   if (result_.contact) result_.contact->open_share = open_rad_ / recorded_rad;
   result_.share_without_contact = within_ > 0.0 ? without_contact_ / within_ : 0.0;
   result_.passes.assign(passes_.begin(), passes_.end());
-  const Eigen::MatrixXd samples = entries_of_first_tooth(result_, rad_per_s_);
+  Eigen::MatrixXd samples(6, std::ssize(samples_));
+  for (std::size_t i = 0; i < samples_.size(); ++i) samples.col(static_cast<Eigen::Index>(i)) = samples_[i];
   if (samples.cols() >= 2) result_.motion = motion_kind(samples, result_.displacement_m.range().maxCoeff());
 }
 

@@ -15,8 +15,11 @@ namespace thinwall::milling {
 /// Sums over the recorded periods: an observer of the march, which calls it with every step.
 class Record {
  public:
-  /// `tips` are those of a period; `result` receives extremes and trace at once, the rest at finish().
-  Record(const std::vector<TipPass>& tips, double rad_per_s, const SimulationOptions& options, SimulatedCut& result);
+  /// `tips` are those of a period of the march. Where they are `alike`, one arc of teeth that leave one surface, each
+  /// of their entries begins a period of the cut; else that of the first alone. `result` receives extremes and trace at
+  /// once, the rest at finish().
+  Record(const std::vector<TipPass>& tips, bool alike, double rad_per_s, const SimulationOptions& options,
+         SimulatedCut& result);
 
   /// The period to be marched next begins at this time; `traced_rad`: rotation since the trace began, below 0 before.
   void begin_period(double time_s, double traced_rad);
@@ -32,12 +35,14 @@ class Record {
   void take_passes(const MarchStep& step);
 
   std::vector<TipPass> tips_;
+  bool alike_;
   double rad_per_s_;
   double sample_rad_;
   std::size_t kept_;
   SimulatedCut& result_;
   std::vector<std::optional<ToothPass>> open_;  ///< of each of the tips, between entry and exit
   std::deque<ToothPass> passes_;
+  std::deque<Eigen::Matrix<double, 6, 1>> samples_;  ///< displacement and slope, m/rad, once a period of the cut
   Eigen::Index next_sample_ = 0;
   double period_start_s_ = 0.0, traced_rad_ = -1.0;
   double part_rad_ = 0.0, recorded_rad_ = 0.0;  ///< of a mean, and of the steps so far

@@ -41,7 +41,7 @@ class Slices {
       const RayMaterial met =
           slices_[static_cast<std::size_t>(disc.slice)].on_ray(centre, ray.n(), disc.radius_m, reach);
       ray.found = met.within_m > 0.0 || met.beyond_m < reach;
-      ray.in_cut = met.within_m > 0.0 || (ray.sine > 0.0 && was_material(ray, disc.radius_m, centre));
+      ray.in_cut = ray.sine > 0.0 && was_material(ray, disc.radius_m, centre);
       ray.farthest_m = met.within_m > 0.0 || met.tip_within ? disc.radius_m - met.within_m : met.beyond_m;
       ray.from = centre;
       if (!ray.found) return 0.0;
@@ -76,7 +76,7 @@ class Slices {
   /// True if the ray crossed the material before the cut: a tooth that meets nothing there has lost its contact, and
   /// one beside it has not.
   [[nodiscard]] bool was_material(const DiscRay& ray, double radius_m, const Point& centre) const {
-    return before_->on_ray(centre, ray.n(), radius_m, radius_m).within_m > 0.0;
+    return before_->on_ray(centre, ray.n(), radius_m, radius_m).tip_within;
   }
 
   void sweep(const PathStep& step, std::size_t i) {

@@ -38,9 +38,9 @@ class CircularMotion {
  public:
   /// Keeps references to both.
   CircularMotion(const CircularCut& cut, const ChipForce& force, const Eigen::Vector3d& first_force_n)
-      : march_(cut, force),
-        state_(at_rest(cut, first_force_n)),
-        periods_{cut.grid.tips, cut.grid.period_rad, cut.grid.periods_a_turn, cut.grid.nodes(), cut.rad_per_s} {}
+      : march_(cut, force), state_(at_rest(cut, first_force_n)), periods_{cut.grid.tips,       false,
+                                                                          cut.grid.period_rad, cut.grid.periods_a_turn,
+                                                                          cut.grid.nodes(),    cut.rad_per_s} {}
 
   [[nodiscard]] const Periods& periods() const { return periods_; }
 
@@ -48,6 +48,9 @@ class CircularMotion {
   long over_period(Observer& see) {
     return march_.over_period(state_, see);
   }
+
+  /// A surface is kept however old it is.
+  [[nodiscard]] static long surfaces_lost() { return 0; }
 
   /// Modes are scaled to their displacement at the cut. The largest of numbers some of which are NaN is any of them.
   [[nodiscard]] bool within(double radius_m) const {
@@ -63,7 +66,7 @@ class CircularMotion {
 }  // namespace
 
 std::string name(SimulationStatus status) {
-  constexpr std::array<const char*, 3> names{"completed", "overflowed", "unsettled"};
+  constexpr std::array<const char*, 4> names{"completed", "overflowed", "unsettled", "surface_lost"};
   return names[static_cast<std::size_t>(status)];
 }
 

@@ -53,9 +53,17 @@ void require_usable(const MillingProcess& process, const ForceLaw& law, const Si
 /// The outcome of a simulation.
 enum class SimulationStatus {
   completed,
-  overflowed,  ///< the vibration outgrew the radius of the cutter, or a number was not finite
-  unsettled,   ///< forces within a step did not settle at more than one node in a thousand
+  overflowed,    ///< the vibration outgrew the radius of the cutter, or a number was not finite
+  unsettled,     ///< forces within a step did not settle at more than one node in a thousand
+  surface_lost,  ///< on exact paths, the vibration was as fast as the teeth cut or reached back to the earliest pass
+                 ///< that is remembered, so that the surface before a tooth was not known at more than one node in a
+                 ///< hundred
 };
+
+/// True where the figures of a simulation are none.
+[[nodiscard]] constexpr bool ended_early(SimulationStatus status) {
+  return status == SimulationStatus::overflowed || status == SimulationStatus::surface_lost;
+}
 
 /// The status as in the enumeration.
 [[nodiscard]] std::string name(SimulationStatus status);

@@ -29,10 +29,11 @@ SpectralLine peak_at(const Spectrum& spectrum, Eigen::Index i) {
   return {spectrum.frequency_hz(i) + sign * d * spectrum.frequency_hz(1), here / passed, LineOrigin::other};
 }
 
-LineOrigin origin_of(double frequency_hz, double spindle_hz, int teeth, double resolution_hz) {
+LineOrigin origin_of(double frequency_hz, double spindle_hz, int teeth, bool alike, double resolution_hz) {
   const double turns = std::round(frequency_hz / spindle_hz);
   if (turns < 1.0 || std::abs(frequency_hz - turns * spindle_hz) > 0.5 * resolution_hz) return LineOrigin::other;
-  return std::fmod(turns, teeth) == 0.0 ? LineOrigin::tooth_passing : LineOrigin::spindle;
+  if (std::fmod(turns, teeth) == 0.0) return LineOrigin::tooth_passing;
+  return alike ? LineOrigin::other : LineOrigin::spindle;
 }
 
 }  // namespace
@@ -65,7 +66,8 @@ Spectrum spectrum_of(const Eigen::VectorXd& samples, double step_s) {
   return spectrum;
 }
 
-std::vector<SpectralLine> spectral_lines(const Spectrum& spectrum, double spindle_hz, int teeth, std::size_t most) {
+std::vector<SpectralLine> spectral_lines(const Spectrum& spectrum, double spindle_hz, int teeth, bool alike,
+                                         std::size_t most) {
   constexpr double least_share = 1e-3;
   const double least = least_share * spectrum.amplitude.maxCoeff();
   std::vector<SpectralLine> lines;
@@ -73,7 +75,7 @@ std::vector<SpectralLine> spectral_lines(const Spectrum& spectrum, double spindl
     const double here = spectrum.amplitude(i);
     if (here < least || here < spectrum.amplitude(i - 1) || here <= spectrum.amplitude(i + 1)) continue;
     SpectralLine line = peak_at(spectrum, i);
-    line.origin = origin_of(line.frequency_hz, spindle_hz, teeth, spectrum.frequency_hz(1));
+    line.origin = origin_of(line.frequency_hz, spindle_hz, teeth, alike, spectrum.frequency_hz(1));
     lines.push_back(line);
   }
   std::ranges::stable_sort(lines, std::ranges::greater{}, &SpectralLine::amplitude);

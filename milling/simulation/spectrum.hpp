@@ -21,8 +21,8 @@ struct Spectrum {
 /// The origin of a line.
 enum class LineOrigin {
   tooth_passing,  ///< a multiple of the teeth that pass a second
-  spindle,        ///< another multiple of the turns a second: runout, unequal pitches, every second tooth
-  other,          ///< chatter, or what is left of the motion's beginning
+  spindle,        ///< another multiple of the turns a second, where teeth differ: runout, unequal pitches
+  other,          ///< chatter, that of every second tooth included, or what is left of the motion's beginning
 };
 
 /// The origin in words, as files have it.
@@ -37,8 +37,9 @@ struct SpectralLine {
 
 /// The peaks of at least a thousandth of the largest, largest first, at most `most`. Their frequency and amplitude are
 /// those of the sine that the window makes two neighbours of: of a lone line exact, to about a thousandth of the
-/// resolution. A peak within half of the resolution of a multiple of the spindle's frequency counts as that.
+/// resolution. A peak within half of the resolution of a multiple of the spindle's frequency counts as that. Where all
+/// teeth are `alike`, the cut makes multiples of the tooth passing frequency alone, and a flip makes the others.
 [[nodiscard]] std::vector<SpectralLine> spectral_lines(const Spectrum& spectrum, double spindle_hz, int teeth,
-                                                       std::size_t most = 12);
+                                                       bool alike, std::size_t most = 12);
 
 }  // namespace thinwall::milling

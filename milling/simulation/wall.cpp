@@ -14,8 +14,8 @@ namespace thinwall::milling {
 namespace {
 
 constexpr double turn_rad = 2.0 * std::numbers::pi;
-constexpr double reach_rad = 0.12;
-constexpr int samples_a_pass = 81;
+constexpr double reach_rad = 0.3;
+constexpr int samples_a_pass = 161;
 constexpr int points_a_feed = 200;
 
 /// Rotation from the entry of a tip to the wall of a side, or below 0 if the arc does not hold it.
@@ -25,6 +25,13 @@ double rotation_to_wall(const TipPass& tip, int side) {
   double s = std::fmod(wall - tip.entry_phi_rad + 2.0 * turn_rad, turn_rad);
   if (s > turn_rad - round_off_rad) s = 0.0;
   return s <= tip.arc_rad + round_off_rad ? s : -1.0;
+}
+
+/// The rotation in its period; a hair before the end, where by round-off no step may reach, it is the start of the
+/// next.
+double within_period(double rotation_rad, double period_rad) {
+  constexpr double hair = 1e-12;
+  return std::max(0.0, rotation_rad - period_rad * std::floor(rotation_rad / period_rad + hair));
 }
 
 /// Height of a path at a place between its samples: the cubic through the four next to it.
@@ -43,6 +50,19 @@ double deepest_place(const TipPath& path) {
   Eigen::Index at = 0;
   path.e_m.maxCoeff(&at);
   return path.x_m(at);
+}
+
+/// How far from its deepest place, m, a pass may take more than those of another turn: the parabola of its arc, x²/2R,
+/// is by then as far out. `a_turn` passes make a turn, of which the deepest counts, so that runout is no difference.
+double reach_of_deepest(const std::vector<const TipPath*>& paths, std::size_t a_turn, double radius_m) {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (std::size_t first = 0; first + a_turn <= paths.size(); first += a_turn) {
+    double deepest = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = first; i < first + a_turn; ++i) deepest = std::max(deepest, paths[i]->e_m.maxCoeff());
+    least = std::min(least, deepest);
+    most = std::max(most, deepest);
+  }
+  return most > least ? std::sqrt(2.0 * radius_m * (most - least)) : 0.0;
 }
 
 /// The error that the deepest of several tips leaves at a place; −∞ where none passes.
@@ -106,6 +126,7 @@ WallRecorder::WallRecorder(const MillingProcess& process, double feed_m_per_rad,
     : radius_m_(0.5 * process.cutter.diameter_m),
       feed_m_per_rad_(feed_m_per_rad),
       feed_a_turn_m_(feed_m_per_rad * turn_rad),
+      periods_a_turn_(std::lround(turn_rad / period_rad)),
       options_(options) {
   if (options.turns == 0) return;
   const Cutter& cutter = process.cutter;
@@ -120,8 +141,7 @@ WallRecorder::WallRecorder(const MillingProcess& process, double feed_m_per_rad,
         const double at = tip.entry_rad + to_wall + options.heights_m[h] * cutter.lag_rad_per_m(tip.tooth);
         for (int i = 0; i < samples_a_pass; ++i) {
           const double rotation = at + offset_rad_[static_cast<std::size_t>(i)];
-          samples_.push_back(
-              {rotation - period_rad * std::floor(rotation / period_rad), static_cast<int>(open_.size()), i});
+          samples_.push_back({within_period(rotation, period_rad), static_cast<int>(open_.size()), i});
         }
         const Eigen::VectorXd empty(samples_a_pass);
         open_.push_back({side, radius_m_ + runout, false, {static_cast<int>(h), empty, empty}});
@@ -159,6 +179,12 @@ void WallRecorder::operator()(const MarchStep& step) {
   }
 }
 
+std::size_t WallRecorder::passes_a_turn(int side, int height) const {
+  const auto passes = std::ranges::count_if(
+      open_, [&](const OpenPath& open) { return open.side == side && open.path.height == height; });
+  return static_cast<std::size_t>(periods_a_turn_ * passes);
+}
+
 std::vector<Wall> WallRecorder::walls() const {
   std::vector<Wall> walls;
   for (const int side : {1, -1}) {
@@ -168,9 +194,11 @@ std::vector<Wall> WallRecorder::walls() const {
         if (of_side == side && path.height == static_cast<int>(h)) paths.push_back(&path);
       }
       if (paths.size() < 2) continue;
-      // A turn's feed from where the first and the last pass are deepest, passes before and after are no deeper.
-      const double from = deepest_place(*paths.front()) + feed_a_turn_m_;
-      const double to = deepest_place(*paths.back()) - feed_a_turn_m_;
+      // Closer to the first and the last pass the wall is not finished: passes before and after may be deeper there.
+      const double unfinished =
+          std::max(feed_a_turn_m_, reach_of_deepest(paths, passes_a_turn(side, static_cast<int>(h)), radius_m_));
+      const double from = deepest_place(*paths.front()) + unfinished;
+      const double to = deepest_place(*paths.back()) - unfinished;
       const auto feeds = static_cast<Eigen::Index>(std::floor((to - from) / feed_a_turn_m_ + 1e-9));
       if (feeds < 1) continue;
       Wall wall{side, options_.heights_m[h], {}, {}};

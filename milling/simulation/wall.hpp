@@ -46,8 +46,8 @@ void set_roughness(Wall& wall);
 
 /// Follows the tips of the teeth by the walls: an observer of the march. A tooth leaves the wall where it points along
 /// its normal, at φ = 0 on the +y_T side and φ = π on the other; with a helix every height at a moment of its own.
-/// Paths reach 0.12 rad and the feed of a turn to either side, because a tip that moves along the normal by v_n is
-/// deepest v_n/(R Ω) before or after.
+/// Paths reach 0.3 rad and the feed of a turn to either side, because a tip that moves along the normal by v_n is
+/// deepest v_n/(R Ω) before or after, and one that is deeper than its neighbours by Δ takes more than they √(2RΔ) away.
 class WallRecorder {
  public:
   /// `feed_m_per_rad`: v_f/Ω.
@@ -59,9 +59,10 @@ class WallRecorder {
   /// Takes a step in.
   void operator()(const MarchStep& step);
   /// The walls that the paths leave: none where no arc reaches a wall, two in a slot; one a height, of
-  /// 200 points a turn, without the first and the last turn, whose neighbours are not known, and filtered if that is
-  /// asked. None where the vibration is so large that a tip turns back along the feed, that no recorded tip passes some
-  /// place, or that less is left than the filter takes.
+  /// 200 points a turn, and filtered if that is asked. At either end a turn is left out, or as much as a pass that was
+  /// not recorded may reach, √(2RΔ) with Δ from the shallowest to the deepest of the turns. None where the vibration
+  /// is so large that a tip turns back along the feed, that no recorded tip passes some place, or that less is left
+  /// than a turn, or than the filter takes.
   [[nodiscard]] std::vector<Wall> walls() const;
 
  private:
@@ -79,9 +80,13 @@ class WallRecorder {
     TipPath path;
   };
 
+  /// Passes of a wall at a height in a turn.
+  [[nodiscard]] std::size_t passes_a_turn(int side, int height) const;
+
   double radius_m_;  ///< without runout
   double feed_m_per_rad_;
   double feed_a_turn_m_;
+  long periods_a_turn_;
   WallOptions options_;
   std::vector<Sample> samples_;  ///< by rotation
   std::vector<double> offset_rad_;

@@ -299,6 +299,25 @@ def fit_modes(
     poles_hz: Sequence[float] | None = None,
     order: int = 30,
 ) -> dict[str, Any]: ...
+def mean_force_coefficients(
+    teeth: int,
+    feed_per_tooth_m: float | Sequence[float],
+    depth_m: float | Sequence[float],
+    force_n: ArrayLike,
+    *,
+    arc_rad: tuple[float, float] | Sequence[tuple[float, float]] | None = None,
+) -> dict[str, Any]: ...
+def edge_force_coefficients(
+    teeth: int,
+    diameter_m: float,
+    feed_per_tooth_m: float | Sequence[float],
+    depth_m: float | Sequence[float],
+    angle_rad: ArrayLike,
+    force_n: ArrayLike,
+    *,
+    arc_rad: tuple[float, float] | Sequence[tuple[float, float]] | None = None,
+    helix_rad: float = 0.0,
+) -> dict[str, Any]: ...
 def route_difference(spatial: Response, receptance: Response) -> float: ...
 def lobes(
     structure: _Structure,

@@ -50,11 +50,7 @@ LearnedParameterSummary parameter_summary(const learning::LearnedParameter& p, c
 
 milling::Score score_after(const std::vector<learning::LearnedCut>& cuts) {
   milling::Score score;
-  for (const learning::LearnedCut& cut : cuts) {
-    if (cut.cut.outcome == milling::CutOutcome::marginal) continue;
-    ++score.of;
-    score.right += (cut.chatter_probability > 0.5) == (cut.cut.outcome == milling::CutOutcome::chatter) ? 1 : 0;
-  }
+  for (const learning::LearnedCut& cut : cuts) milling::count(score, cut.cut.outcome, cut.chatter_probability > 0.5);
   return score;
 }
 
@@ -88,9 +84,11 @@ LearnedSummary learned_summary(const study::LearnedChart& learned) {
         {cut.cut.spindle_speed_rpm, cut.cut.depth_m, cut.cut.outcome, cut.chatter_probability});
   }
   if (const auto& next = learned.next) {
-    result.next_cut = {next->point.spindle_speed_rpm, next->point.depth_m, next->chatter_probability,
-                       next->deviation_before, next->deviation_after};
+    result.next_cut = {learned.next_for_rpm,      next->point.spindle_speed_rpm, next->point.depth_m,
+                       next->chatter_probability, next->deviation_before,        next->deviation_after};
   }
+  if (const auto& cut = learned.productive)
+    result.productive_cut = {cut->point.spindle_speed_rpm, cut->point.depth_m, cut->chatter_probability};
   for (const study::LearnedChart::Row& row : learned.rows)
     result.rows.push_back({row.spindle_speed_rpm, row.before_m, row.median_m, row.stable_90_m, row.stable_95_m});
   return result;
@@ -130,9 +128,13 @@ std::string learned_text(const LearnedSummary& learned) {
   }
   if (const auto& next = learned.next_cut) {
     text += fmt::format(
-        "      next cut: {:.0f} rpm, {:.3f} mm (chatter {:.0f} %), narrows the limit from {:.1f} to {:.1f} %\n",
-        next->spindle_speed_rpm, next->depth_m * 1e3, 100.0 * next->chatter_probability, 100.0 * next->deviation_before,
-        100.0 * next->deviation_after);
+        "      next cut: {:.0f} rpm, {:.3f} mm (chatter {:.0f} %), narrows the {} from {:.1f} to {:.1f} %\n",
+        next->spindle_speed_rpm, next->depth_m * 1e3, 100.0 * next->chatter_probability,
+        next->for_rpm ? "limit" : "best speed", 100.0 * next->deviation_before, 100.0 * next->deviation_after);
+  }
+  if (const auto& cut = learned.productive_cut) {
+    text += fmt::format("      removes most: {:.0f} rpm, {:.3f} mm (chatter {:.0f} %)\n", cut->spindle_speed_rpm,
+                        cut->depth_m * 1e3, 100.0 * cut->chatter_probability);
   }
   return text;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/median.hpp"
 #include "io/results/csv_table.hpp"
 #include "report/finite_number.hpp"
 #include "study/lobes/observed_cuts.hpp"
@@ -74,13 +75,6 @@ void count_certainty(const ObservedCutSummary& cut, CertaintySummary& summary) {
   }
 }
 
-/// The median of a list that is not empty, the mean of the middle two of an even one.
-double median(std::vector<double> list) {
-  std::ranges::sort(list);
-  const std::size_t half = list.size() / 2;
-  return list.size() % 2 == 1 ? list[half] : 0.5 * (list[half - 1] + list[half]);
-}
-
 void add_frequencies(ObservedSummary& summary) {
   std::vector<double> differences;
   for (const ObservedCutSummary& cut : summary.cuts) {
@@ -88,7 +82,7 @@ void add_frequencies(ObservedSummary& summary) {
     differences.push_back(std::abs(*cut.predicted_frequency_hz / *cut.heard_frequency_hz - 1.0));
   }
   summary.frequencies_heard = static_cast<int>(differences.size());
-  if (!differences.empty()) summary.median_frequency_difference_relative = median(std::move(differences));
+  if (!differences.empty()) summary.median_frequency_difference_relative = core::median(std::move(differences));
 }
 
 std::string wrong_text(const ObservedCutSummary& cut) {
@@ -116,10 +110,8 @@ ObservedSummary observed_summary(const std::vector<study::JudgedCut>& cuts) {
     count(cut, summary);
     with_textbook = with_textbook || cut.textbook_stable;
     if (!cut.right) continue;
-    ++prediction.of;
-    prediction.right += *cut.right ? 1 : 0;
-    ++textbook.of;
-    textbook.right += cut.textbook_stable == (cut.observed == CutOutcome::stable) ? 1 : 0;
+    milling::count(prediction, cut.observed, !cut.predicted_stable);
+    if (cut.textbook_stable) milling::count(textbook, cut.observed, !*cut.textbook_stable);
     if (!cut.certainty) continue;
     if (!summary.certainty) summary.certainty.emplace();
     count_certainty(cut, *summary.certainty);

@@ -51,7 +51,7 @@ io::Table table_of(const std::vector<PointSimulation>& points) {
   // A vibration that outgrew the cutter has no figures.
   const auto figure = [](const auto& quantity) {
     return [quantity](const PointSimulation& p) {
-      const bool grew = p.cut.status == milling::SimulationStatus::overflowed;
+      const bool grew = milling::ended_early(p.cut.status);
       return grew ? std::numeric_limits<double>::infinity() : static_cast<double>(quantity(p.cut));
     };
   };
@@ -237,8 +237,7 @@ void write_simulation(const std::filesystem::path& folder, const study::Results&
                   {"inf: the vibration outgrew the cutter; empty: not known"});
   for (std::size_t i = 0; i < results.simulations.size(); ++i) {
     const PointSimulation& p = results.simulations[i];
-    if (p.cut.status != milling::SimulationStatus::overflowed)
-      write_point(below, simulation_files_name(p.of, i), p.cut);
+    if (!milling::ended_early(p.cut.status)) write_point(below, simulation_files_name(p.of, i), p.cut);
     if (!p.part.empty()) write_part(below / (simulation_files_name(p.of, i) + "-part.vtp"), p.part);
   }
   for (const study::AmplitudeMap& map : results.amplitude_maps)

@@ -18,8 +18,7 @@ std::string length(double metres) {
 }
 
 std::string motion_in_words(const SimulatedPointSummary& p) {
-  const bool stable = p.growth.stable();
-  if (stable && (p.motion == "quasi_periodic" || p.motion == "growing"))
+  if (p.motion == "settling")
     return "has not settled, though small ones decay: " +
            (p.period_difference
                 ? fmt::format("it still changes by {:.2g} % of its size, ", 100.0 * *p.period_difference)
@@ -27,11 +26,18 @@ std::string motion_in_words(const SimulatedPointSummary& p) {
            "settle more turns";
   if (p.motion == "periodic") return "repeats itself with the cut";
   if (p.motion == "period_n") return fmt::format("repeats itself after {} periods of the cut", p.period);
-  return p.motion == "quasi_periodic" ? "never repeats itself" : "grows";
+  if (p.motion == "growing") return "grows";
+  return p.growth.stable() ? "never repeats itself, though small ones decay: settle more turns, or it is chatter that "
+                             "a large enough disturbance begins"
+                           : "never repeats itself";
 }
 
 std::string outcome(const SimulatedPointSummary& p) {
   if (p.status == "overflowed") return fmt::format("the vibration outgrew the cutter after {:.3g} s", p.simulated_s);
+  if (p.status == "surface_lost")
+    return fmt::format(
+        "after {:.3g} s the vibration is too fast or too large for exact paths, take simulation.paths = \"region\"",
+        p.simulated_s);
   const std::string text = p.approach.empty() ? "vibration " + motion_in_words(p) : "the tool enters at a border";
   return p.status == "unsettled" ? text +
                                        "; forces within steps did not settle: take more steps, or more modes by "
@@ -112,7 +118,11 @@ std::string contact_text(const OpeningContactSummary& contact) {
 std::string removal_text(double error) {
   constexpr double worth_telling = 0.01;
   if (std::abs(error) < worth_telling) return "";
-  return fmt::format("  removal    {:+.2g} % off the area between the walls: take more steps a turn\n", 100.0 * error);
+  return fmt::format(
+      "  removal    {:+.2g} % off the area between the walls: take more steps a turn, or record more turns of a "
+      "vibration "
+      "that does not repeat itself\n",
+      100.0 * error);
 }
 
 std::string lag_text(const std::vector<double>& lag_m) {

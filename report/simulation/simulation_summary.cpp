@@ -26,7 +26,7 @@ std::vector<Line> lines_of(const PointSimulation& p, const Eigen::Matrix3Xd& sam
   for (const int axis : {0, 1}) {
     const milling::Spectrum spectrum = milling::spectrum_of(samples.row(axis), p.cut.trace.step_s);
     for (const milling::SpectralLine& line :
-         milling::spectral_lines(spectrum, p.point.spindle_speed_rpm / 60.0, p.teeth, most_lines))
+         milling::spectral_lines(spectrum, p.point.spindle_speed_rpm / 60.0, p.teeth, p.alike, most_lines))
       lines.push_back({line.frequency_hz, line.amplitude, axis == 0 ? "feed" : "normal", milling::name(line.origin)});
   }
   return lines;
@@ -80,7 +80,7 @@ SimulatedPointSummary point_of(const PointSimulation& p, std::size_t index) {
   summary.period_difference = finite(p.cut.motion.difference);
   summary.simulated_s = p.cut.simulated_s;
   summary.growth = growth_of(p);
-  if (p.cut.status == milling::SimulationStatus::overflowed) return summary;  // figures of such a motion are none
+  if (milling::ended_early(p.cut.status)) return summary;  // figures of such a motion are none
   add_figures(summary, p.cut);
   summary.vibration_lines = lines_of<VibrationLineSummary>(p, p.cut.trace.displacement_m);
   summary.force_lines = lines_of<ForceLineSummary>(p, p.cut.trace.force_n);

@@ -58,18 +58,36 @@ void fields(Visitor& visit, Section& cut) {
 
 /// The cut to make next.
 struct NextCutSummary {
+  std::optional<double> for_rpm;
   double spindle_speed_rpm = 0.0, depth_m = 0.0, chatter_probability = 0.0;
   double deviation_before = 0.0, deviation_after = 0.0;
 };
 
 template <class Visitor, Either<NextCutSummary> Section>
 void fields(Visitor& visit, Section& cut) {
+  visit(
+      Field{"for_rpm", Kind::spindle_speed,
+            "the speed whose limit it narrows; null: it narrows the speed at which most is removed", Presence::or_null},
+      cut.for_rpm);
   visit(Field{"spindle_speed_rpm", Kind::spindle_speed, "spindle speed"}, cut.spindle_speed_rpm);
   visit(Field{"depth_m", Kind::length, "axial depth of cut"}, cut.depth_m);
   visit(Field{"chatter_probability", Kind::ratio, "probability that it chatters"}, cut.chatter_probability);
-  visit(Field{"deviation_before", Kind::ratio, "standard deviation of ln of the limit at the wanted speed"},
+  visit(Field{"deviation_before", Kind::ratio, "standard deviation of ln of the limit, or of the best speed"},
         cut.deviation_before);
   visit(Field{"deviation_after", Kind::ratio, "what is expected of it once the outcome is known"}, cut.deviation_after);
+}
+
+/// The cut that removes most at a bounded risk.
+struct ProductiveCutSummary {
+  double spindle_speed_rpm = 0.0, depth_m = 0.0, chatter_probability = 0.0;
+};
+
+template <class Visitor, Either<ProductiveCutSummary> Section>
+void fields(Visitor& visit, Section& cut) {
+  visit(Field{"spindle_speed_rpm", Kind::spindle_speed, "spindle speed"}, cut.spindle_speed_rpm);
+  visit(Field{"depth_m", Kind::length, "axial depth of cut"}, cut.depth_m);
+  visit(Field{"chatter_probability", Kind::ratio, "probability that it chatters, at most calibration.risk"},
+        cut.chatter_probability);
 }
 
 /// The limit at a speed, beforehand and after.
@@ -98,6 +116,7 @@ struct LearnedSummary {
   std::optional<ShareSummary> cross_validated;
   std::vector<ContradictionSummary> contradictions;
   std::optional<NextCutSummary> next_cut;
+  std::optional<ProductiveCutSummary> productive_cut;
   std::vector<LearnedRowSummary> rows;
 };
 
@@ -120,8 +139,10 @@ void fields(Visitor& visit, Section& learned) {
         learned.cross_validated);
   visit(Field{"contradictions", Kind::section, "cuts of which the other outcome had more than 95 %", Presence::if_any},
         learned.contradictions);
-  visit(Field{"next_cut", Kind::section, "the cut that is expected to tell most; absent without a speed"},
+  visit(Field{"next_cut", Kind::section, "the cut that is expected to tell most; absent where none is safe enough"},
         learned.next_cut);
+  visit(Field{"productive_cut", Kind::section, "the cut that removes most at calibration.risk; absent without that"},
+        learned.productive_cut);
   visit(Field{"rows", Kind::section, "limits over the speeds"}, learned.rows);
 }
 

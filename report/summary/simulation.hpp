@@ -21,10 +21,11 @@ void fields(Visitor& visit, Section& line) {
   visit(Field{"frequency_hz", Kind::frequency, "frequency"}, line.frequency_hz);
   visit(Field{"amplitude_m", Kind::length, "peak value of the sine, tool against part"}, line.amplitude_m);
   visit(Field{"direction", Kind::text, "\"feed\" or \"normal\""}, line.direction);
-  visit(Field{"origin", Kind::text,
-              "\"tooth_passing\", \"spindle\" (another multiple of the turns a second), \"other\": chatter, or what is "
-              "left of the beginning"},
-        line.origin);
+  visit(
+      Field{"origin", Kind::text,
+            "\"tooth_passing\", \"spindle\" (another multiple of the turns a second, of teeth that differ), \"other\": "
+            "chatter, or what is left of the beginning"},
+      line.origin);
 }
 
 /// A line of the spectrum of the force.
@@ -171,10 +172,13 @@ void fields(Visitor& visit, Section& point) {
   visit(Field{"feed_per_tooth_m", Kind::length, "feed per tooth"}, point.feed_per_tooth_m);
   visit(
       Field{"status", Kind::text,
-            "\"completed\", \"overflowed\" (the vibration outgrew the cutter, at simulated_s) or \"unsettled\" (forces "
-            "within steps did not settle: not to be trusted)"},
+            "\"completed\", \"overflowed\" (the vibration outgrew the cutter, at simulated_s), \"surface_lost\" (it "
+            "was too fast or too large for exact paths, from simulated_s on) or \"unsettled\" (forces within steps did "
+            "not settle: not to be trusted)"},
       point.status);
-  visit(Field{"motion", Kind::text, "\"periodic\", \"period_n\", \"quasi_periodic\" or \"growing\""}, point.motion);
+  visit(Field{"motion", Kind::text,
+              "\"periodic\", \"period_n\", \"quasi_periodic\", \"growing\" or \"settling\": it has no period yet"},
+        point.motion);
   visit(Field{"period", Kind::count, "periods of the cut after which the motion repeats itself; 0: never"},
         point.period);
   visit(Field{"period_difference", Kind::residual,
@@ -185,7 +189,7 @@ void fields(Visitor& visit, Section& point) {
   visit(Field{"simulated_s", Kind::time, "time that was simulated, up to the end or to where the status was met"},
         point.simulated_s);
   visit(Field{"peak_to_peak_m", Kind::length,
-              "along feed, normal and axis; null, as below, where it outgrew the cutter", or_null},
+              "along feed, normal and axis; null, as below, where it outgrew the cutter or exact paths", or_null},
         point.peak_to_peak_m);
   visit(Field{"mean_force_n", Kind::force, "on the tool, along feed, normal and axis", or_null}, point.mean_force_n);
   visit(Field{"peak_force_n", Kind::force, "largest resultant force on the tool", or_null}, point.peak_force_n);
@@ -274,10 +278,11 @@ void fields(Visitor& visit, Section& simulation) {
               Presence::or_null},
         simulation.growth_difference);
   visit(
-      Field{"forced_difference", Kind::section,
-            "simulated motion against the closed form, which must agree where the motion is settled; null: known at no "
-            "point",
-            Presence::or_null},
+      Field{
+          "forced_difference", Kind::section,
+          "simulated motion against the closed form, which must agree: the largest over the points of whose beginning "
+          "less than 1e-6 is left (left_of_beginning); null: at no point",
+          Presence::or_null},
       simulation.forced_difference);
   visit(Field{"points", Kind::section, "operating points, structure by structure"}, simulation.points);
   visit(Field{"maps", Kind::section, "vibration over speed and depth (simulation.map)", Presence::if_any},

@@ -25,7 +25,7 @@ constexpr double heard_deviation = 0.05;
 constexpr std::size_t limit_draws = 60, candidate_draws = 60;
 constexpr int limit_speeds = 40, candidate_speeds = 24, candidate_depths = 12;
 
-/// Speeds and depths that fill the chart and that the machine can do.
+/// Speeds and depths that fill the chart, shallow ones more densely, and that the machine can do.
 std::vector<milling::OperatingPoint> candidates_of(const setup::CutSetup& source,
                                                    const milling::MillingProcess& process) {
   const setup::LobesOptions& lobes = *source.lobes;
@@ -34,7 +34,8 @@ std::vector<milling::OperatingPoint> candidates_of(const setup::CutSetup& source
   std::vector<milling::OperatingPoint> list;
   for (const double rpm : milling::spindle_speeds(lobes.from_rpm, lobes.to_rpm, candidate_speeds)) {
     for (int d = 1; d <= candidate_depths; ++d) {
-      const milling::OperatingPoint point{rpm, std::min(lobes.depth_limit, lobes.depth_limit * d / candidate_depths)};
+      const double share = static_cast<double>(d) / candidate_depths;
+      const milling::OperatingPoint point{rpm, lobes.depth_limit * share * share};
       if (can_do(machine, load, point)) list.push_back(point);
     }
   }
@@ -48,57 +49,68 @@ double reached_by(const std::vector<double>& ascending, double share) {
   return ascending[std::min(at, ascending.size() - 1)];
 }
 
-std::vector<LearnedChart::Row> limits_of_draws(const setup::LobesOptions& lobes, const learning::Calibration& learned,
-                                               milling::StabilityOptions options) {
+std::vector<LimitsAtSpeed> limits_of_draws(const setup::LobesOptions& lobes, const learning::Calibration& learned,
+                                           const milling::StabilityOptions& options) {
   const std::vector<double> speeds = milling::spindle_speeds(lobes.from_rpm, lobes.to_rpm, limit_speeds);
   const std::vector<milling::Cut> cuts = learning::cuts_of_draws(learned, limit_draws);
-  std::vector<std::optional<LearnedChart::Row>> rows(speeds.size());
+  std::vector<LimitsAtSpeed> limits(speeds.size());
   core::Progress progress("limits of the draws", speeds.size());
   core::parallel_for(speeds.size(), [&](std::size_t i) {
-    std::vector<double> limits;
-    limits.reserve(cuts.size());
-    for (const milling::Cut& cut : cuts)
-      if (const auto limit = learning::answered_limit_m(cut, speeds[i], options)) limits.push_back(*limit);
-    std::ranges::sort(limits);
-    const std::optional<double> nominal = learning::answered_limit_m(learned.model.nominal, speeds[i], options);
-    if (nominal && 2 * limits.size() >= cuts.size())
-      rows[i] = LearnedChart::Row{speeds[i], *nominal, reached_by(limits, 0.5), reached_by(limits, 0.9),
-                                  reached_by(limits, 0.95)};
+    const auto limit_of = [&](const milling::Cut& cut) { return learning::limit_at(cut, speeds[i], options); };
+    limits[i] = {speeds[i], limit_of(learned.model.nominal), {}};
+    for (const milling::Cut& cut : cuts) limits[i].of_draws.push_back(limit_of(cut));
     progress.step();
   });
-  std::vector<LearnedChart::Row> answered;
-  answered.reserve(rows.size());
-  for (const auto& row : rows)
-    if (row) answered.push_back(*row);
-  if (answered.size() < rows.size())
-    core::warn(fmt::format("calibration: of {} speeds {} have no learned limit, for its search missed a crossing",
-                           rows.size(), rows.size() - answered.size()));
-  return answered;
+  return limits;
 }
 
-milling::Score score_of(const learning::CutModel& model, const learning::PredictedCuts& predicted) {
-  milling::Score score;
-  for (std::size_t i = 0; i < model.cuts.size(); ++i) {
-    if (model.cuts[i].outcome == milling::CutOutcome::marginal) continue;
-    ++score.of;
-    const bool chatters = predicted.margin(static_cast<Eigen::Index>(i)) > 0.0;
-    score.right += chatters == (model.cuts[i].outcome == milling::CutOutcome::chatter) ? 1 : 0;
+/// The speed at which each draw removes most.
+std::vector<std::optional<double>> best_speeds(const std::vector<LimitsAtSpeed>& limits) {
+  std::vector<double> speeds;
+  for (const LimitsAtSpeed& at : limits) speeds.push_back(at.spindle_speed_rpm);
+  std::vector<std::optional<double>> best;
+  for (std::size_t draw = 0; draw < limits.front().of_draws.size(); ++draw) {
+    std::vector<std::optional<double>> of_draw;
+    for (const LimitsAtSpeed& at : limits) of_draw.push_back(at.of_draws[draw]);
+    best.push_back(learning::best_speed_rpm(speeds, of_draw));
   }
-  return score;
+  return best;
 }
 
-/// The next cut; none, with a warning, where every one is beyond the machine or too likely to chatter.
-std::optional<learning::NextCut> next_cut_for(double rpm, const learning::Calibration& learned,
-                                              const std::vector<milling::OperatingPoint>& candidates) {
+void warn_of_missing(const char* cut, double risk) {
+  core::warn(
+      fmt::format("calibration: no {} cut, since every cut of the chart lies beyond [machine] or chatters with "
+                  "a probability above {:g}; look at the limits of [machine]",
+                  cut, risk));
+}
+
+/// The cut to make next for a speed, or for the best one by the limits; a warning where there is none.
+std::optional<learning::NextCut> told_next_cut(const learning::Calibration& learned, std::optional<double> rpm,
+                                               const std::vector<LimitsAtSpeed>& limits,
+                                               const std::vector<milling::OperatingPoint>& candidates) {
   std::optional<learning::NextCut> next;
-  if (!candidates.empty()) next = learning::next_cut(learned, candidate_draws, rpm, candidates);
-  if (!next) {
-    core::warn(
-        fmt::format("calibration: no next cut for {:g} rpm, since every cut of the chart lies beyond [machine] or "
-                    "chatters with a probability above {:g}; look at the limits of [machine]",
-                    rpm, learning::riskiest_next_cut));
+  try {
+    if (!candidates.empty())
+      next = rpm ? learning::next_cut(learned, candidate_draws, *rpm, candidates)
+                 : learning::next_cut_for_best_speed(learned, best_speeds(limits), candidates);
+  } catch (const core::NumericalError& error) {
+    core::warn(fmt::format("calibration: no next cut: {}", error.what()));
+    return std::nullopt;
   }
+  if (!next) warn_of_missing("next", learning::riskiest_next_cut);
   return next;
+}
+
+/// The cuts to make next, or a warning where every one is beyond the machine or too likely to chatter.
+void add_next_cuts(LearnedChart& chart, const setup::CutSetup& source, const std::vector<LimitsAtSpeed>& limits,
+                   const std::vector<milling::OperatingPoint>& candidates) {
+  const setup::Calibration& wanted = *source.calibration;
+  chart.next_for_rpm = wanted.spindle_speed_rpm ? wanted.spindle_speed_rpm : source.cutting->spindle_speed_rpm;
+  chart.next = told_next_cut(chart.calibration, chart.next_for_rpm, limits, candidates);
+  if (!wanted.risk) return;
+  if (!candidates.empty())
+    chart.productive = learning::most_productive_cut(chart.calibration, candidate_draws, candidates, *wanted.risk);
+  if (!chart.productive) warn_of_missing("productive", *wanted.risk);
 }
 
 void tell_of_doubt(const learning::Calibration& learned) {
@@ -111,6 +123,29 @@ void tell_of_doubt(const learning::Calibration& learned) {
 }
 
 }  // namespace
+
+std::vector<LearnedChart::Row> answered_rows(const std::vector<LimitsAtSpeed>& limits) {
+  std::vector<LearnedChart::Row> rows;
+  std::size_t draws = 0, missed = 0;
+  for (const LimitsAtSpeed& at : limits) {
+    std::vector<double> known;
+    for (const std::optional<double>& limit : at.of_draws)
+      if (limit) known.push_back(*limit);
+    draws += at.of_draws.size();
+    missed += at.of_draws.size() - known.size();
+    if (!at.nominal || 2 * known.size() < at.of_draws.size()) continue;
+    std::ranges::sort(known);
+    rows.push_back(
+        {at.spindle_speed_rpm, *at.nominal, reached_by(known, 0.5), reached_by(known, 0.9), reached_by(known, 0.95)});
+  }
+  if (missed > 0 || rows.size() < limits.size()) {
+    core::warn(
+        fmt::format("calibration: of {} limits of draws {} are left out, for their search missed a crossing; of "
+                    "{} speeds {} have no learned limit",
+                    draws, missed, limits.size(), limits.size() - rows.size()));
+  }
+  return rows;
+}
 
 learning::CutModel cut_model(const setup::CutSetup& source, const milling::Cut& nominal,
                              const milling::StabilityOptions& options) {
@@ -142,11 +177,11 @@ LearnedChart learned_chart(const setup::CutSetup& source, const milling::Cut& no
   tell_of_doubt(chart.calibration);
   const learning::CutModel& model = chart.calibration.model;
   const Eigen::VectorXd nothing_learned = Eigen::VectorXd::Zero(std::ssize(model.parameters));
-  chart.before = score_of(model, learning::predict(model, nothing_learned, false));
+  learning::count(chart.before.emplace(), model, learning::predict(model, nothing_learned, false));
   if (wanted.folds) chart.cross_validated = learning::cross_validated(model, *wanted.folds);
-  chart.rows = limits_of_draws(*source.lobes, chart.calibration, options);
-  const auto rpm = wanted.spindle_speed_rpm ? wanted.spindle_speed_rpm : source.cutting->spindle_speed_rpm;
-  if (rpm) chart.next = next_cut_for(*rpm, chart.calibration, candidates_of(source, nominal.process));
+  const std::vector<LimitsAtSpeed> limits = limits_of_draws(*source.lobes, chart.calibration, options);
+  chart.rows = answered_rows(limits);
+  add_next_cuts(chart, source, limits, candidates_of(source, nominal.process));
   return chart;
 }
 

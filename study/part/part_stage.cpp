@@ -198,6 +198,7 @@ void check_mass(const setup::PartSetup& source, PartResult& part) {
   if (setup::kind(*source.part) == setup::ShapeKind::surface && !summed) {
     const setup::MeshOptions& mesh = source.part->mesh;
     bound = mesh.element_size ? mesh::SurfaceMeshOptions{}.volume_tolerance : fem::share_of_surface * mesh.tolerance;
+    if (part.estimate) bound = std::max(bound, part.estimate->frequency);  // which what the surface is off by is in
   }
   if (part.mass_difference < bound) return;
   throw core::NumericalError("the mass of the mesh differs from the geometry's by " +

@@ -136,7 +136,7 @@ void march_arm(const Simulated& cut, const milling::TurnObserver& look, PointSim
 /// The approach of the deflection to its end, along feed and normal, of a cut that began at a border.
 void approach(const Simulated& cut, PointSimulation& p) {
   if (cut.setup.simulation->start != setup::CutStart::border) return;
-  if (p.cut.status == milling::SimulationStatus::overflowed) return;
+  if (milling::ended_early(p.cut.status)) return;
   constexpr Eigen::Index least_means = 20;
   if (p.cut.means_m.cols() < least_means || !p.cut.means_m.allFinite()) return;
   const double period_s = 60.0 / p.point.spindle_speed_rpm / cut.options.means_a_turn;
@@ -170,7 +170,7 @@ std::optional<ForcedAgreement> agreement(const Simulated& cut, const milling::Re
   try {
     const milling::ForcedVibration forced =
         milling::forced_vibration(structure, cut.process, p.point.spindle_speed_rpm, p.point.depth_m,
-                                  p.feed_per_tooth_m, {.error_tolerance = 1e-6});
+                                  p.feed_per_tooth_m, {.error_tolerance = 1e-10});
     return ForcedAgreement{forced.peak_to_peak_m, difference_of(p.cut, forced, one_entry(cut.process)),
                            std::pow(p.lobes.modulus, static_cast<double>(cut.options.settling_turns) * p.teeth)};
   } catch (const core::InputError& error) {
@@ -192,6 +192,20 @@ std::optional<double> removal_error(const Simulated& cut, const PointSimulation&
     if (wall.height_m == p.cut.walls.front().height_m) width_m += wall.mean_m;
   }
   return p.cut.removed_m2 / (width_m * p.feed_per_tooth_m * p.teeth) - 1.0;
+}
+
+/// Warns of a wall that was asked for and could not be measured.
+void warn_of_lost_wall(const Simulated& cut, const PointSimulation& p) {
+  constexpr double hair = 1e-9;
+  const bool reached = std::ranges::any_of(milling::arcs(cut.process), [](const milling::Engagement& arc) {
+    return arc.entry_rad < hair || arc.exit_rad > std::numbers::pi - hair;
+  });
+  if (!reached || cut.options.wall.turns == 0 || !p.cut.walls.empty()) return;
+  if (p.cut.status != milling::SimulationStatus::completed) return;
+  core::warn(fmt::format(
+      "at {:.6g} rpm no part of the wall is finished within the {} turns of which it is recorded, for passes that were "
+      "not may reach everywhere: record more (simulation.turns, simulation.wall)",
+      p.point.spindle_speed_rpm, cut.options.wall.turns));
 }
 
 /// The oscillations of the slowest mode while a tooth is in the cut.
@@ -233,8 +247,10 @@ void simulate_point(const Simulated& cut, const FeltStructure& felt, const milli
   if (cut.setup.simulation->robot == setup::CarrierMotion::multibody) march_arm(cut, look, p);
   else march(cut, felt, look, p);
   approach(cut, p);
+  warn_of_lost_wall(cut, p);
   p.removal_error = removal_error(cut, p);
   grow(cut, felt.structure, p);
+  if (p.lobes.modulus < 1.0) p.cut.motion = milling::kind_beside_decay(p.cut.motion);
   p.forced = agreement(cut, felt.structure, p);
 }
 
@@ -278,7 +294,12 @@ std::vector<PointSimulation> simulate_points(const setup::Setup& setup, const Re
   std::vector<const FeltStructure*> structures;
   for (const FeltStructure& one : felt) {
     for (const milling::OperatingPoint& point : points_of(cut, one.structure, asked)) {
-      points.push_back({one.of, point, cut.feed_per_tooth_m, cut.process.cutter.teeth, {}, {}, {}, {}, {}, {}, {}, {}});
+      PointSimulation& added = points.emplace_back();
+      added.of = one.of;
+      added.point = point;
+      added.feed_per_tooth_m = cut.feed_per_tooth_m;
+      added.teeth = cut.process.cutter.teeth;
+      added.alike = milling::equal_surfaces(cut.process);
       structures.push_back(&one);
     }
   }

@@ -34,6 +34,7 @@ struct PointSimulation {
   milling::OperatingPoint point;
   double feed_per_tooth_m = 0.0;
   int teeth = 1;
+  bool alike = true;  ///< the teeth leave one surface (milling::equal_surfaces())
   milling::SimulatedCut cut;
   milling::SimulatedGrowth growth;  ///< of a small vibration, by the march
   milling::Multiplier lobes;        ///< what multiplier_at() says of it; |μ| NaN where nodes do not suffice to ask

@@ -248,7 +248,8 @@ TEST_F(CommandLine, TemplatesAreRightCasesAndNeverOverwrite) {
 TEST_F(CommandLine, DoctorNamesTheLibraries) {
   const Outcome outcome = call({"doctor"});
   EXPECT_EQ(outcome.code, 0);
-  for (const auto* name : {"Eigen", "SuiteSparse", "METIS", "VTK", "threads", "memory", "BLAS kernel", "STEP files"}) {
+  for (const auto* name :
+       {"Eigen", "SuiteSparse", "METIS", "VTK", "threads", "memory", "BLAS kernel", "STEP files", "--ranks"}) {
     EXPECT_NE(outcome.out.find(name), std::string::npos) << name;
   }
 }

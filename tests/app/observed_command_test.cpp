@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "learning/edge_force_fit.hpp"
 #include "learning/mean_force_fit.hpp"
 #include "tests/app/lobes_command.hpp"
 
@@ -95,7 +96,8 @@ TEST_F(ObservedCommand, LearnsFromCuts) {
   std::string cuts;
   for (const double share : {0.85, 0.9, 0.95}) cuts += cut("12000", std::to_string(share * limit_mm), "chatter");
   write("case.toml", tool_case + cuts);
-  const Outcome done = command({"calibrate", path("case.toml"), "--draws", "40", "--out", path("results"), "-q"});
+  const Outcome done =
+      command({"calibrate", path("case.toml"), "--draws", "40", "--risk", "0.3", "--out", path("results"), "-q"});
   ASSERT_EQ(done.code, 0) << done.err;
   const auto learned = chart()["learned"];
   EXPECT_TRUE(learned["converged"].get<bool>());
@@ -105,6 +107,9 @@ TEST_F(ObservedCommand, LearnsFromCuts) {
   EXPECT_GT(learned["after"]["right"], 0);
   ASSERT_TRUE(learned.contains("next_cut"));
   EXPECT_LT(learned["next_cut"]["deviation_after"], learned["next_cut"]["deviation_before"]);
+  ASSERT_TRUE(learned.contains("productive_cut"));
+  EXPECT_LE(learned["productive_cut"]["chatter_probability"].get<double>(), 0.3);
+  EXPECT_EQ(learned["next_cut"]["for_rpm"], 12000.0);
   for (const auto& row : learned["rows"]) EXPECT_LE(row["stable_95_m"], row["median_m"]);
 }
 
@@ -113,6 +118,7 @@ TEST_F(ObservedCommand, ProposesNoCutBeyondTheMachine) {
   const Outcome done = command({"calibrate", path("case.toml"), "--draws", "40", "--out", path("results"), "-q"});
   ASSERT_EQ(done.code, 0) << done.err;
   ASSERT_TRUE(chart()["learned"].contains("next_cut"));
+  EXPECT_FALSE(chart()["learned"].contains("productive_cut"));
   EXPECT_LE(chart()["learned"]["next_cut"]["spindle_speed_rpm"].get<double>(), 9500.0);
   EXPECT_LE(chart()["learned"]["next_cut"]["chatter_probability"].get<double>(), 0.6);
   const Outcome outside =
@@ -198,6 +204,58 @@ TEST_F(ObservedCommand, FitsCoefficientsOfMeanForces) {
   const Outcome singular = command({"coefficients", path("one.csv"), "--teeth", "2"});
   EXPECT_EQ(singular.code, 3);
   EXPECT_NE(singular.err.find("twice the feed per tooth"), std::string::npos) << singular.err;
+}
+
+TEST_F(ObservedCommand, RefusesMeanForcesOfATallCutAndOfABall) {
+  const std::string columns = "feed_per_tooth_mm,depth_mm,force_feed_n,force_normal_n,force_axis_n\n";
+  write("forces.csv", columns + "0.03,2,-20,30,-5\n0.06,2,-35,55,-9\n0.09,2,-50,80,-13\n");
+  const auto refused = [&](const std::string& tool) {
+    write("tool.toml", "[tool]\nteeth = 2\ndiameter = \"10 mm\"\n" + tool);
+    const Outcome done = command({"coefficients", path("forces.csv"), "--tool", path("tool.toml")});
+    EXPECT_EQ(done.code, 3) << done.out;
+    return done.err;
+  };
+  const std::string length = "length = \"20 mm\"\n";
+  for (const std::string end : {"end = \"ball\"\n", "end = \"bull_nose\"\ncorner_radius = \"2 mm\"\n"})
+    EXPECT_NE(refused(length + end).find("mean forces are those of a cylinder"), std::string::npos) << end;
+  EXPECT_NE(refused("length = \"1 mm\"\n").find("2 mm deep, must be at most the 1 mm"), std::string::npos);
+  const std::string runout = "runout = [\"9 mm\", \"-9 mm\"]\n";
+  EXPECT_NE(refused(length + runout).find("runout"), std::string::npos);
+}
+
+TEST_F(ObservedCommand, FitsForcesOverTheAngleWithTheRunoutOfATool) {
+  const milling::CuttingCoefficients truth{7.5e8, 2.4e8, -1.1e8, 18e3, 22e3, 3e3};
+  write("tool.toml", "[tool]\nteeth = 2\ndiameter = \"10 mm\"\nlength = \"20 mm\"\nhelices = [\"30 deg\"]\n");
+  milling::Cutter cutter;
+  cutter.teeth = 2;
+  cutter.diameter_m = 0.01;
+  cutter.helices_rad = {std::numbers::pi / 6.0, std::numbers::pi / 6.0};
+  cutter.runout_m = {5e-6, -5e-6};
+  std::ostringstream text;
+  text.precision(17);
+  text << "feed_per_tooth_mm,depth_mm,angle_deg,force_feed_n,force_normal_n,force_axis_n\n";
+  for (const double feed : {0.04, 0.08}) {
+    const learning::ForceRecord cut{{0.0, std::numbers::pi}, 2e-3, feed * 1e-3, {}, {}};
+    for (int degrees = 0; degrees < 360; degrees += 10) {
+      const auto force = learning::edge_force_n(cutter, truth, cut, degrees * std::numbers::pi / 180.0);
+      text << feed << ",2," << degrees << ',' << force.x() << ',' << force.y() << ',' << force.z() << '\n';
+    }
+  }
+  write("angles.csv", text.str());
+  const Outcome done = command({"coefficients", path("angles.csv"), "--tool", path("tool.toml")});
+  ASSERT_EQ(done.code, 0) << done.err;
+  for (const char* line :
+       {"# 2 cuts, 209 degrees of freedom", "Kt  = \"750 N/mm^2\"", "Kr  = \"240 N/mm^2\"", "Ka  = \"-110 N/mm^2\"",
+        "Kte = \"18 N/mm\"", "Kre = \"22 N/mm\"", "Kae = \"3 N/mm\"", "runout = [\"5 um\", \"-5 um\"]"})
+    EXPECT_NE(done.out.find(line), std::string::npos) << done.out;
+  const Outcome without = command({"coefficients", path("angles.csv"), "--teeth", "2"});
+  EXPECT_EQ(without.code, 2);
+  EXPECT_NE(without.err.find("--diameter is missing"), std::string::npos) << without.err;
+  write("tool.toml", "title = \"None\"\n");
+  const Outcome no_tool = command({"coefficients", path("angles.csv"), "--tool", path("tool.toml")});
+  EXPECT_EQ(no_tool.code, 3);
+  EXPECT_NE(no_tool.err.find("there is no [tool]"), std::string::npos) << no_tool.err;
+  EXPECT_EQ(command({"coefficients", path("angles.csv")}).code, 2);
 }
 
 }  // namespace

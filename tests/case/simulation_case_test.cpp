@@ -80,6 +80,8 @@ TEST(SimulationCase, WhatCannotBeSimulatedIsRefused) {
                  "\"1 mm\": a spindle speed and a depth with one comma");
   expect_problem(simulated("at = \"1900 rpm, 25 mm\"\n"), "deeper than the tool's length of 20 mm");
   expect_problem(simulated("at = \"0 rpm, 1 mm\"\n"), "above 0");
+  expect_problem(simulated("at = \"1e9 rpm, 1 mm\"\n"), "no spindle speed in machining");
+  expect_problem(simulated("at = \"0.01 rpm, 1 mm\"\n"), "no spindle speed in machining");
   expect_problem(simulated("turns = 100\nlength = \"10 mm\"\n"), "give either simulation.turns or simulation.length");
   expect_problem(simulated("length = \"500 mm\"\n"), "more than the part's extent of 392 mm along the feed");
   expect_problem(simulated("turns = 100000\ntrace = 20000\n"), "a trace of 1.008e+08 numbers");
@@ -97,6 +99,9 @@ TEST(SimulationCase, AFeedIsNeeded) {
   std::string zero = simulated("at = \"1900 rpm, 1 mm\"\n");
   zero.replace(zero.find("1800 mm/min"), 11, "0 mm/min");
   expect_problem(zero, "cutting.feed_rate");
+  std::string fast = simulated("at = \"1900 rpm, 1 mm\"\n");
+  fast.replace(fast.find("1800 mm/min"), 11, "1800 m/min");
+  expect_problem(fast, "below the cutter's radius");
 }
 
 TEST(SimulationCase, TeethMustTouch) {

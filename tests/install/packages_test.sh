@@ -16,7 +16,8 @@ trap 'rm -rf "$tree"' EXIT
 
 interface=$(sed -n 's/^project(thinwall VERSION \([0-9]*\.[0-9]*\).*/\1/p' "$here/../../CMakeLists.txt")
 library=libthinwall$interface
-names=(libthinwall-dev "$library" ${python:+python3-thinwall} thinwall)
+mpi=$(find "$build/app" -name thinwall-mpi)  # none where MUMPS is not installed
+names=(libthinwall-dev "$library" ${python:+python3-thinwall} thinwall ${mpi:+thinwall-mpi})
 expect_equal "the packages" "${names[*]}" \
   "$(for deb in "$debs"/*.deb; do dpkg-deb -f "$deb" Package; done | LC_ALL=C sort | xargs)"
 
@@ -44,6 +45,11 @@ expect_equal "the program needs no development package" "" "$(depends thinwall |
 expect_equal "the library exists for its soname" "libthinwall.so.$interface" \
   "$(find "$root/usr/lib" -name "libthinwall.so.$interface" -exec objdump -p {} + |
     awk '$1 == "SONAME" { print $2 }')"
+
+if [[ -n $mpi ]]; then
+  expect_contains "the ranks' libraries" "libmumps" "$(depends thinwall-mpi)"
+  expect_equal "the program needs no MPI" "" "$(depends thinwall "$library" | tr ',' '\n' | grep -e mpi -e mumps || true)"
+fi
 
 # --- the words of the program, and whose they are that its page holds
 expect_equal "the manual page" "$(<"$here/../../docs/thinwall.1")" "$(zcat "$root/usr/share/man/man1/thinwall.1.gz")"

@@ -17,7 +17,7 @@ for component in library dev; do
   "$cmake" --install "$build" --prefix "$prefix" --component $component >"$tree/install.log"
 done
 header_folders=$(cd "$prefix/include/thinwall" && ls)
-expect_equal "a header folder a library folder" "case core coupling dynamics fem identification io learning linalg mesh milling posture reduction regression robot setup study" \
+expect_equal "a header folder a library folder" "case core coupling distributed dynamics fem identification io learning linalg mesh milling posture reduction regression robot setup study" \
   "$(xargs <<<"$header_folders")"
 expect_equal "no header names another from the sources' root" "" \
   "$(grep -rnE '#include "(core|mesh|io)/' "$prefix/include" || true)"

@@ -82,6 +82,8 @@ TEST_F(Superelement, SaysWhatItIsNot) {
   node[11] = 99;
   EXPECT_NE(message(replaced("scipy_cdf1", rows, component)).find("component 7 of node 40"), std::string::npos);
   EXPECT_NE(message(replaced("scipy_cdf1", rows, node)).find("names node 99"), std::string::npos);
+  EXPECT_NE(message(core::read_file(corpus("transposed_map"))).find("cbmap is 2 x 4, not 4 x 2"), std::string::npos);
+  EXPECT_NE(message(core::read_file(corpus("scalar_at_the_end"))).find("beyond the end"), std::string::npos);
   const auto hdf5 = write("a.nc", "\x89HDF\r\n\x1a\n and _NCProperties");
   const std::string advice = message_of<core::DataError>(
       [&] { (void)read_matrices({.stiffness = hdf5, .length_unit = "m", .mass_unit = "kg"}); });

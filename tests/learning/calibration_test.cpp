@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/error.hpp"
+#include "learning/interpolated_cuts.hpp"
 #include "learning/next_cut.hpp"
 #include "milling/direct/stability.hpp"
 #include "tests/learning/synthetic.hpp"
@@ -179,6 +181,76 @@ TEST(Calibration, RefusesAModelWithoutCutsOrUncertainty) {
   EXPECT_THROW((void)likeliest(machine.model), core::InputError);
 }
 
+TEST(InterpolatedCuts, AreThePredictionAtTheirPlacesAndNearItBetween) {
+  const Machine machine = drawn_machine(4, 12);
+  std::mt19937 random(5);
+  std::vector<Eigen::VectorXd> places;
+  for (int i = 0; i < 150; ++i) places.push_back(0.5 * milling::standard_normal(8, random));
+  InterpolatedCuts cuts(machine.model, {places.begin(), places.end() - 30});
+  cuts.add(machine.model, places);  // 120 of them once more
+  for (const std::size_t i : {0u, 130u}) {
+    const PredictedCuts exact = predict(machine.model, places[i], false), found = cuts(places[i]);
+    EXPECT_LT((found.margin - exact.margin).cwiseAbs().maxCoeff(), 1e-8);
+    for (Eigen::Index k = 0; k < 12; ++k)
+      if (machine.model.cuts[static_cast<std::size_t>(k)].chatter_frequency_hz)
+        EXPECT_NEAR(found.frequency_hz(k), exact.frequency_hz(k), 1e-6);
+  }
+  // Between them it is off by a small part of what the margins change.
+  double error = 0.0, change = 0.0;
+  const Eigen::VectorXd middle = predict(machine.model, Eigen::VectorXd::Zero(8), false).margin;
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::VectorXd z = 0.5 * milling::standard_normal(8, random);
+    const Eigen::VectorXd exact = predict(machine.model, z, false).margin;
+    error += (cuts(z).margin - exact).squaredNorm();
+    change += (middle - exact).squaredNorm();
+  }
+  EXPECT_LT(error, 0.05 * change);
+  EXPECT_THROW(InterpolatedCuts(machine.model, {places.begin(), places.begin() + 44}), core::InputError);
+}
+
+TEST(NextCut, LeavesOutCandidatesWhoseProbabilityIsNotANumber) {
+  const Machine machine = drawn_machine(4, 3);
+  Calibration learned;
+  learned.model = machine.model;
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  learned.draws = {Eigen::VectorXd::Zero(9), Eigen::VectorXd::Constant(9, 0.1)};
+  learned.draws[1](8) = unknown;  // the noise, and with it the probability of this draw
+  const std::vector<milling::OperatingPoint> shallow{{9000.0, 1e-6}, {9500.0, 1e-6}};
+  EXPECT_FALSE(most_productive_cut(learned, 2, shallow, 0.1));
+  EXPECT_FALSE(next_cut_for_best_speed(learned, {9000.0, 9500.0}, shallow));
+  EXPECT_EQ(best_speed_rpm({1.0, 2.0}, {unknown, 1e-3}), 2.0);
+}
+
+TEST(NextCut, TellsThatMostDrawsHaveNoBestSpeed) {
+  Calibration learned;
+  learned.model = drawn_machine(4, 3).model;
+  learned.draws = {Eigen::VectorXd::Zero(9), Eigen::VectorXd::Constant(9, 0.1), Eigen::VectorXd::Constant(9, 0.2)};
+  const std::vector<milling::OperatingPoint> candidates{{9000.0, 1e-3}};
+  EXPECT_THROW((void)next_cut_for_best_speed(learned, {9000.0, std::nullopt, std::nullopt}, candidates),
+               core::NumericalError);
+  EXPECT_THROW((void)next_cut_for_best_speed(learned, std::vector<std::optional<double>>(4, 9000.0), candidates),
+               core::InputError);
+}
+
+TEST(NextCut, LeavesOutRowsWithoutAnAnswer) {
+  milling::LobeRow row;
+  row.limiting_depth_m = 1e-3;
+  for (const auto status : {milling::StabilityStatus::converged, milling::StabilityStatus::node_limit_reached,
+                            milling::StabilityStatus::data_limited, milling::StabilityStatus::stable_to_depth_limit}) {
+    row.status = status;
+    EXPECT_EQ(answered_limit_m(row), 1e-3) << milling::name(status);
+  }
+  for (const auto status : {milling::StabilityStatus::crossing_missed, milling::StabilityStatus::data_insufficient}) {
+    row.status = status;
+    EXPECT_FALSE(answered_limit_m(row)) << milling::name(status);
+  }
+  row.status = milling::StabilityStatus::converged;
+  for (const double depth : {0.0, -1e-3, std::numeric_limits<double>::quiet_NaN()}) {
+    row.limiting_depth_m = depth;
+    EXPECT_FALSE(answered_limit_m(row)) << depth;
+  }
+}
+
 TEST(NextCut, NarrowsTheLimitMostAndNeverWidensIt) {
   const Machine machine = drawn_machine(6, 6);
   ChainOptions options;
@@ -194,6 +266,28 @@ TEST(NextCut, NarrowsTheLimitMostAndNeverWidensIt) {
   EXPECT_GT(best.chatter_probability, 0.1);
   EXPECT_LE(best.chatter_probability, 0.6);
   EXPECT_FALSE(next_cut(learned, 40, 9000.0, {{9000.0, 3e-3}}));  // chatters with near certainty
+  // Of the candidates the most productive one is the deepest that is safe enough, and deeper where more is risked.
+  const NextCut safe = most_productive_cut(learned, 40, candidates, 0.1).value();
+  const NextCut bold = most_productive_cut(learned, 40, candidates, 0.5).value();
+  EXPECT_LE(safe.chatter_probability, 0.1);
+  EXPECT_LE(bold.chatter_probability, 0.5);
+  EXPECT_GT(bold.point.depth_m, safe.point.depth_m);
+  EXPECT_FALSE(most_productive_cut(learned, 40, {{9000.0, 3e-3}}, 0.1));
+  EXPECT_THROW((void)most_productive_cut(learned, 40, candidates, 1.5), core::InputError);
+}
+
+TEST(NextCut, HasTheExpectedVarianceOfTwoOutcomes) {
+  // Four draws of y = 0, 0, 1, 1: a cut that chatters with the last two alone leaves no variance, one that does not
+  // tell them apart leaves all of it, and one that chatters with the last draw leaves that of 0, 0, 1 in three of four.
+  Eigen::MatrixXd chatter(4, 3);
+  chatter << 0.0, 0.5, 0.0, 0.0, 0.5, 0.0, 1.0, 0.5, 0.0, 1.0, 0.5, 1.0;
+  const Eigen::VectorXd after =
+      expected_variances(chatter, Eigen::Vector4d(0.0, 0.0, 1.0, 1.0), Eigen::Vector4d::Constant(0.25));
+  EXPECT_NEAR(after(0), 0.0, 1e-15);
+  EXPECT_NEAR(after(1), 0.25, 1e-15);
+  EXPECT_NEAR(after(2), 0.75 * (2.0 / 9.0), 1e-15);
+  EXPECT_EQ(best_speed_rpm({1.0, 2.0, 3.0}, {3e-3, 2e-3, std::nullopt}), 2.0);
+  EXPECT_FALSE(best_speed_rpm({1.0}, {std::nullopt}));
 }
 
 }  // namespace

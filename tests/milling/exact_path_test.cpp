@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "milling/simulation/region_path.hpp"
 #include "tests/milling/single_mode.hpp"
 
 namespace thinwall::milling::exact_path_test {
@@ -69,6 +70,8 @@ TEST(ExactPath, HasTheLimitCyclesOfAnotherProgram) {
       square += x * x / static_cast<double>(cut.passes.size());
     }
     EXPECT_NEAR(std::sqrt(square - mean * mean), c.deviation_um, 2e-3 * c.range_x_um);
+    EXPECT_EQ(cut.motion.motion, c.immersion < 1.0 ? Motion::period_n : Motion::quasi_periodic);
+    EXPECT_EQ(cut.motion.period, c.immersion < 1.0 ? 2 : 0);
     // The peak of a quasi-periodic record is that of its length.
     EXPECT_NEAR(cut.force_n.high.x(), c.force_x_n, 3e-3 * c.force_x_n);
   }
@@ -132,6 +135,42 @@ TEST(ExactPath, TellsWhenTheVibrationOutgrowsTheCutter) {
                                                {5000.0, 0.1, 1e-3}, {}, turns(0, 50));
   EXPECT_EQ(cut.status, SimulationStatus::overflowed);
   EXPECT_EQ(cut.motion.motion, Motion::growing);
+}
+
+/// A vibration of half the cutting speed. The part as a region has no iteration for the place where a ray meets a path.
+TEST(ExactPath, IsThatOfTheRegionHoweverFastTheVibration) {
+  const MillingProcess process = down_milling(0.01, 1e-3);
+  const RelativeStructure structure = modes_in_plane(922.0, 0.011, 0.03993);
+  const SimulatedPoint point{6000.0, 3e-3, 1e-4};
+  const Stock stock = shoulder(process.cutter, 1e-3, MillingDirection::down);
+  const SimulationOptions options = turns(60, 60);
+  const SimulatedCut exact = simulate_exact_path(structure, process, process.coefficients, point, stock, options);
+  const CutWindow window = cut_window(process, point, 120);
+  const SimulatedCut region = simulate_region(structure, process, process.coefficients, point,
+                                              {outline_of(stock, window.low, window.high)}, options)
+                                  .cut;
+  EXPECT_EQ(exact.status, SimulationStatus::completed);
+  EXPECT_NEAR(exact.mean_power_w, region.mean_power_w, 1e-3 * region.mean_power_w);
+  EXPECT_LT((exact.mean_force_n - region.mean_force_n).norm(), 1e-3 * region.mean_force_n.norm());
+  // Peaks of a motion that never repeats itself are those of its record.
+  EXPECT_NEAR(exact.displacement_m.range().x(), region.displacement_m.range().x(),
+              5e-3 * region.displacement_m.range().x());
+}
+
+/// A tool that vibrates faster than its teeth cut moves their tips backwards; two passes that are remembered do
+/// not have the surfaces that a tooth out of the cut leaves standing.
+TEST(ExactPath, TellsWhereTheSurfaceBeforeAToothIsNotKnown) {
+  const MillingProcess process = down_milling(0.01, 1.5e-3);
+  const auto with = [&](double depth_m, int earlier_passes) {
+    return simulate_exact_path(modes_in_plane(922.0, 0.011, 0.03993), process, process.coefficients,
+                               {6000.0, depth_m, 1e-4}, shoulder(process.cutter, 1.5e-3, MillingDirection::down),
+                               turns(0, 20), {720, earlier_passes});
+  };
+  const SimulatedCut fast = with(3e-3, 60);
+  EXPECT_EQ(fast.status, SimulationStatus::surface_lost);
+  EXPECT_LT(fast.simulated_s, 0.1);
+  EXPECT_EQ(with(1e-3, 60).status, SimulationStatus::completed);
+  EXPECT_EQ(with(1e-3, 2).status, SimulationStatus::surface_lost);
 }
 
 TEST(ExactPath, RefusesWhatItCannotMarch) {

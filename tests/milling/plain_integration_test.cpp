@@ -134,6 +134,79 @@ TEST(ForceLaws, AreThoseOfAPlainIntegration) {
   }
 }
 
+/// Velocity Verlet of two teeth with helices of their own in up-milling, at `steps` angles of a turn: each disc meets
+/// at its angle what the last disc of its height has left there. Range of the last of the turns, along x and y.
+Eigen::Vector2d range_with_helices(const MillingProcess& process, const SimulatedPoint& point, int steps, int turns) {
+  constexpr int discs = 12;
+  const double omega = 2.0 * pi * frequency_hz, step_rad = 2.0 * pi / steps;
+  const double dt = 60.0 / point.spindle_speed_rpm / steps;
+  std::vector<std::vector<double>> surface(discs, std::vector<double>(static_cast<std::size_t>(steps), 0.0));
+  struct DiscOfTooth {
+    int height, behind;  // behind: steps after the tip of the first tooth
+    double feed_m;
+  };
+  const auto lag = [&](int tooth, int height) {
+    const double z = (height + 0.5) / discs * point.depth_m;
+    return static_cast<int>(std::lround(process.cutter.lag_rad_per_m(tooth) * z / step_rad));
+  };
+  std::vector<DiscOfTooth> edges;
+  for (int tooth = 0; tooth < 2; ++tooth) {
+    for (int k = 0; k < discs; ++k) {
+      const int since = steps / 2 + lag(tooth, k) - lag(1 - tooth, k);
+      edges.push_back({k, tooth * steps / 2 + lag(tooth, k), 2.0 * point.feed_per_tooth_m * since / steps});
+    }
+  }
+  Eigen::Vector2d q = Eigen::Vector2d::Zero(), v = q, low = q, high = q;
+  for (int i = 0; i < turns * steps; ++i) {
+    Eigen::Vector2d force = Eigen::Vector2d::Zero();
+    for (const DiscOfTooth& edge : edges) {
+      const int at = (i - edge.behind + 2 * steps) % steps;
+      const double phi = at * step_rad, past_exit = phi - process.engagement.exit_rad;
+      if (past_exit > 0.5 * step_rad) continue;
+      const double share = std::min(1.0, 0.5 - past_exit / step_rad);  // of the step at this angle that is in the cut
+      const double sine = std::sin(phi), cosine = std::cos(phi);
+      double& left = surface[static_cast<std::size_t>(edge.height)][static_cast<std::size_t>(at)];
+      left -= edge.feed_m * sine;
+      const double chip = sine * q.x() + cosine * q.y() - left;
+      if (chip <= 0.0) continue;
+      left += chip;
+      const double per_chip = share * point.depth_m / discs * chip;
+      const CuttingCoefficients& k = process.coefficients;
+      force += per_chip * Eigen::Vector2d(-k.K_t * cosine - k.K_r * sine, k.K_t * sine - k.K_r * cosine);
+    }
+    v += dt * (force / mass_kg - omega * omega * q - 2.0 * damping_ratio * omega * v);  // half a step ahead of q
+    q += dt * v;
+    if (i < (turns - 1) * steps) low = high = q;
+    low = low.cwiseMin(q);
+    high = high.cwiseMax(q);
+  }
+  return high - low;
+}
+
+/// Where teeth of two helices lose contact, surfaces are handed on between nodes that do not coincide, turn after turn:
+/// a polynomial through them grows without bound. |μ| is 0.77 a turn.
+TEST(UnequalHelices, AreThoseOfAPlainIntegrationWhereContactIsLost) {
+  MillingProcess process;
+  process.cutter = {2, 0.01};
+  process.cutter.helices_rad = {pi / 6.0, pi / 5.0};
+  process.coefficients = {6e8, 2e8, 0.0, 0.0, 0.0, 0.0};
+  process.engagement = engagement_of(process.cutter, 3e-3, MillingDirection::up);
+  const RelativeStructure structure =
+      relative_structure(testing::modal_model({{frequency_hz, damping_ratio, mass_kg, Eigen::Vector3d::UnitX()},
+                                               {frequency_hz, damping_ratio, mass_kg, Eigen::Vector3d::UnitY()}}),
+                         "P");
+  const SimulatedPoint point{13700.0, 0.3e-3, feed_m};
+  SimulationOptions options;
+  options.settling_turns = 300;
+  options.recorded_turns = 4;
+  const SimulatedCut cut = simulate(structure, process, process.coefficients, point, options);
+  ASSERT_EQ(cut.status, SimulationStatus::completed);
+  EXPECT_GT(cut.share_without_contact, 1e-3);
+  const Eigen::Vector2d plain = range_with_helices(process, point, 14400, 80);
+  EXPECT_NEAR(cut.displacement_m.range().x(), plain.x(), 1e-3 * plain.x());
+  EXPECT_NEAR(cut.displacement_m.range().y(), plain.y(), 1e-3 * plain.y());
+}
+
 /// The mode along y of which a part of the stiffness is the support's, and its pair of forces.
 struct SupportedTool {
   RelativeStructure structure;

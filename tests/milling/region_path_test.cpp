@@ -115,7 +115,7 @@ TEST(PartRegion, RefusesWhatIsNone) {
 TEST(RegionPath, RemovesTheAreaOfTheCut) {
   constexpr double feed = 1e-4, diameter = 0.01;
   for (const auto direction : {MillingDirection::down, MillingDirection::up}) {
-    for (const double radial : {0.5e-3, 4e-3, 10e-3}) {
+    for (const double radial : {0.5e-3, 4e-3, 7e-3, 9.9e-3, 10e-3}) {
       const MillingProcess process = cut_of(diameter, radial, direction);
       const SimulatedPoint point{6000.0, 1e-3, feed};
       const RegionCut result = simulate_region(stiff(), process, process.coefficients, point,
@@ -158,11 +158,13 @@ TEST(RegionPath, MovesAsExactPathsDo) {
     EXPECT_NEAR(region.cut.peak_force_n, exact.peak_force_n, 1e-3 * exact.peak_force_n) << row.rpm;
     EXPECT_LT((region.cut.mean_force_n - exact.mean_force_n).norm(), 1e-3 * exact.mean_force_n.norm()) << row.rpm;
     EXPECT_NEAR(region.cut.removed_m2, exact.removed_m2, 1e-3 * exact.removed_m2) << row.rpm;
+    EXPECT_EQ(region.cut.motion.motion, exact.motion.motion) << row.rpm;
   }
 }
 
 /// A tool that does not vibrate never loses contact, though its rays pass beside the material by less than a cell:
-/// ahead of the entry of up-milling, beyond its exit, beside both walls of a slot.
+/// ahead of the entry of up-milling, beyond its exit (from a centre that lies within the stock as well), beside both
+/// walls of a slot.
 TEST(RegionPath, CountsNoRayBesideTheMaterialAsLostContact) {
   for (const auto direction : {MillingDirection::down, MillingDirection::up}) {
     for (const double radial : {0.5e-3, 4e-3, 10e-3}) {

@@ -114,6 +114,19 @@ TEST(LimitCycles, AreThoseOfAnotherProgram) {
   }
 }
 
+/// Samples of a decaying oscillation settle where small vibrations decay; those of a lasting one are chatter there too.
+TEST(MotionKind, IsSettlingWhereChangesBecomeSmaller) {
+  for (const double decay : {0.0, 0.005}) {
+    Eigen::MatrixXd samples(1, 200);
+    for (Eigen::Index i = 0; i < samples.cols(); ++i)
+      samples(i) = std::exp(-decay * static_cast<double>(i)) * std::sin(0.7 * static_cast<double>(i));
+    const MotionKind kind = motion_kind(samples, 2.0);
+    EXPECT_EQ(kind.motion, Motion::quasi_periodic);
+    EXPECT_EQ(kind_beside_decay(kind).motion, decay > 0.0 ? Motion::settling : Motion::quasi_periodic);
+  }
+  EXPECT_EQ(kind_beside_decay({Motion::period_n, 2, 0.0, 0.5}).motion, Motion::period_n);
+}
+
 TEST(LimitCycles, HaveTheirKind) {
   const SimulatedCut flip = simulated(down_milling(0.05), {19000.0, 2e-3, feed_m}, turns(2000, 200));
   EXPECT_EQ(flip.motion.motion, Motion::period_n);
@@ -158,7 +171,10 @@ TEST(StableCut, MovesAsInClosedForm) {
     EXPECT_LE((cut.passes.back().entry_m - forced.displacement_m.col(0)).norm(), 1e-9 * size) << p.rpm;
     EXPECT_LE((cut.mean_force_n - forced.mean_force_n).norm(), 1e-9 * forced.mean_force_n.norm()) << p.rpm;
     EXPECT_NEAR(cut.mean_power_w, forced.mean_power_w, 1e-9 * forced.mean_power_w) << p.rpm;
-    EXPECT_NEAR(cut.displacement_m.range().x(), forced.peak_to_peak_m.x(), 1e-5 * size) << p.rpm;
+    EXPECT_NEAR(cut.displacement_m.range().x(), forced.peak_to_peak_m.x(), 1e-9 * size) << p.rpm;
+    EXPECT_NEAR(cut.displacement_m.range().y(), forced.peak_to_peak_m.y(), 1e-9 * size) << p.rpm;
+    // Chips end at zero where a tooth leaves: no contact is lost there.
+    EXPECT_EQ(cut.share_without_contact, 0.0) << p.rpm;
     // The wall of down-milling lies at −y: +y leaves material there.
     EXPECT_NEAR(cut.passes.back().exit_m.y(), -*forced.surface_location_error_m, 1e-4 * size) << p.rpm;
   }
@@ -194,22 +210,40 @@ TEST(UnstableCut, ScalesWithTheFeed) {
   EXPECT_NEAR(two.share_without_contact, one.share_without_contact, 1e-12);
 }
 
+/// Two arcs of a turn make one period, and a wall each: that of φ = 0 where the first begins, that of φ = π where the
+/// second ends.
+TEST(StableCut, OfTwoArcsRepeatsItselfAndLeavesTwoWalls) {
+  MillingProcess process = down_milling(0.1);
+  process.engagement = {0.0, 40.0 * pi / 180.0};
+  process.further_engagements = {{150.0 * pi / 180.0, pi}};
+  SimulationOptions options = turns(500, 40);
+  options.wall.turns = 20;
+  const SimulatedCut cut = simulated(process, {12000.0, 0.05e-3, feed_m}, options);
+  EXPECT_EQ(cut.motion.motion, Motion::periodic);
+  ASSERT_EQ(cut.walls.size(), 2u);
+  EXPECT_EQ(cut.walls[0].side, 1);
+  EXPECT_EQ(cut.walls[1].side, -1);
+}
+
 /// A structure so stiff that only feed and runout shape the chips: those of chip_load.hpp, where a tooth may pass above
 /// the surface of the one before it and cut what two teeth have left.
 TEST(StiffCut, HasTheChipsOfFeedPitchesAndRunout) {
-  MillingProcess process = down_milling(1.0, 170.0);
-  process.cutter.runout_m = {20e-6, -20e-6};
-  const RelativeStructure stiff = relative_structure(
-      testing::modal_model({{20e3, 0.05, 1e3, Eigen::Vector3d::UnitX()}, {20e3, 0.05, 1e3, Eigen::Vector3d::UnitY()}}),
-      "P");
-  for (const double feed : {1e-4, 2e-5}) {  // at the smaller one the second tooth never cuts
-    const SimulatedCut cut = simulate(stiff, process, process.coefficients, {6000.0, 1e-3, feed}, turns(20, 2));
-    const auto loads = chip_loads(process.cutter, arcs(process), feed);
-    double without = 0.0;
-    for (const ChipLoad& load : loads) without += 0.5 * (1.0 - load.share_in_cut);
-    EXPECT_NEAR(cut.share_without_contact, without, 5e-3) << feed;
-    const double longest = 170.0 / 180.0 * feed + 40e-6;
-    EXPECT_NEAR(cut.thickest_chip_m, std::min(longest, 2.0 * feed), 1e-3 * feed) << feed;
+  for (const double pitch : {170.0, 180.0}) {
+    MillingProcess process = down_milling(1.0, pitch);
+    process.cutter.runout_m = {20e-6, -20e-6};
+    const RelativeStructure stiff =
+        relative_structure(testing::modal_model({{20e3, 0.05, 1e3, Eigen::Vector3d::UnitX()},
+                                                 {20e3, 0.05, 1e3, Eigen::Vector3d::UnitY()}}),
+                           "P");
+    for (const double feed : {1e-4, 2e-5}) {  // at the smaller one the second tooth never cuts
+      const SimulatedCut cut = simulate(stiff, process, process.coefficients, {6000.0, 1e-3, feed}, turns(20, 2));
+      const auto loads = chip_loads(process.cutter, arcs(process), feed);
+      double without = 0.0;
+      for (const ChipLoad& load : loads) without += 0.5 * (1.0 - load.share_in_cut);
+      EXPECT_NEAR(cut.share_without_contact, without, 5e-3) << feed;
+      const double longest = pitch / 180.0 * feed + 40e-6;
+      EXPECT_NEAR(cut.thickest_chip_m, std::min(longest, 2.0 * feed), 1e-3 * feed) << feed;
+    }
   }
 }
 

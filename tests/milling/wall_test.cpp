@@ -129,6 +129,25 @@ TEST(Wall, OfASlotHasTwoSides) {
   EXPECT_EQ(cut.walls[1].side, -1);
 }
 
+/// Passes of chatter are deep by turns, and a deep one takes more than a shallow one for many feeds around: the wall
+/// that is told ends before the last passes, so that its end is as its middle.
+TEST(Wall, OfChatterEndsWhereItIsFinished) {
+  const MillingProcess process = milling(0.1, MillingDirection::down);
+  SimulationOptions options = walled(150);
+  options.recorded_turns = options.wall.turns = 60;
+  const SimulatedCut cut =
+      simulate_exact_path(in_plane(922.0, 0.011, 0.03993), process, process.coefficients, {6000.0, 1.5e-3, feed_m},
+                          shoulder(process.cutter, 1e-3, MillingDirection::down), options, {720, 10});
+  ASSERT_EQ(cut.walls.size(), 1u);
+  const Wall& wall = cut.walls.front();
+  const Eigen::Index tenth = wall.error_m.size() / 10;
+  ASSERT_GT(tenth, 200);
+  EXPECT_GT(wall.mean_m, 3e-5);
+  EXPECT_NEAR(wall.error_m.head(tenth).mean(), wall.mean_m, wall.R_t_m / 3.0);
+  EXPECT_NEAR(wall.error_m.tail(tenth).mean(), wall.mean_m, wall.R_t_m / 3.0);
+  EXPECT_LT(wall.R_t_m, 6e-5);
+}
+
 /// The filter halves a wave of its cutoff (ISO 16610-21), and passes what is much shorter.
 TEST(Wall, FilterHalvesTheWaveOfItsCutoff) {
   const auto amplitude_left = [](double length) {

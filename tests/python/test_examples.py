@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -65,6 +66,8 @@ SHARED = {  # one script for two cases
     "bondarenko-2012-c": "bondarenko-2012-bc",
     "insperger-mann-2003-up": "insperger-mann-2003",
     "insperger-mann-2003-down": "insperger-mann-2003",
+    "ji-liu-2024-x": "ji-liu-2024",
+    "ji-liu-2024-y": "ji-liu-2024",
 }
 
 
@@ -133,6 +136,17 @@ def test_insperger_mann_2003(run_case, half, right):
     text = example(run_case, f"insperger-mann-2003-{half}")
     assert number(r"(\d+) of \d+ right", text) >= right  # together the published 41
     assert text.count("boundary") == number(r"\d+ of (\d+) right", text) - number(r"(\d+) of \d+ right", text)
+
+
+@pytest.mark.parametrize("feed", ["x", "y"])
+def test_ji_liu_2024(run_case, feed):
+    text = example(run_case, f"ji-liu-2024-{feed}")
+    # The geometric mean of the four published K_t, and the larger deviation of the logarithms of K_t and K_r.
+    tangential = np.log([600.46, 767.01, 951.365, 1319.41])
+    radial = np.log([180.96, 168.8, 262.597, 788.83])
+    assert number(r"K_t ([\d.]+) N/mm", text) == pytest.approx(np.exp(tangential.mean()), rel=1e-3)
+    spread = max(tangential.std(ddof=1), radial.std(ddof=1))
+    assert number(r"spread ([\d.]+)", text) == pytest.approx(spread, abs=6e-3)
 
 
 def test_huynh_2017(run_case):

@@ -33,5 +33,17 @@ TEST(ObservedSummary, CountsAPredictionThatDidNotConvergeNeitherAsRightNorAsWron
   EXPECT_FALSE(observed_summary({judged(stable, true, Status::converged)}).doubtful);
 }
 
+TEST(ObservedSummary, CountsForTheTextbookOnlyCutsThatItJudges) {
+  using enum milling::CutOutcome;
+  std::vector<study::JudgedCut> cuts(3, judged(chatter, false, milling::StabilityStatus::converged));
+  cuts[0].textbook_stable = false;
+  cuts[1].textbook_stable = true;
+  const ObservedSummary summary = observed_summary(cuts);
+  EXPECT_EQ(summary.prediction.of, 3);
+  ASSERT_TRUE(summary.textbook);
+  EXPECT_EQ(summary.textbook->right, 1);
+  EXPECT_EQ(summary.textbook->of, 2);
+}
+
 }  // namespace
 }  // namespace thinwall::report::observed_summary_test

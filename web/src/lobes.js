@@ -50,7 +50,7 @@ export function lobesLead(runs) {
     kinds.length ? `The lower panel gives the frequency of the chatter that begins at the line (${kinds.map((k) => signs[k]).join(', ')}${runs.length > 1 ? '; open of the first run, filled of the second' : ''}).` : '',
     runs.some((run) => pointsOf(run).length) ? 'Operating points are circles where they are stable, crosses where they chatter.' : '',
     runs.some((run) => run.summary.lobes?.at(-1)?.learned) ? 'Lines called learned: what is stable with 50 and 95 % of what these cuts left possible.' : '',
-    runs.some((run) => observedOf(run).length) ? 'Cuts that were made are filled where the chart is right, open and large where it is wrong: circles were stable, crosses chattered, diamonds were marginal.' : '',
+    runs.some((run) => observedOf(run).length) ? 'Cuts that were made are filled where the chart is right, open and large where it is wrong: circles were stable, crosses chattered, diamonds were marginal. One that is open with a dot has a doubtful prediction and does not count.' : '',
     simulatedPoints(runs).length ? 'Diamonds were simulated; a click on one leads to its simulation.' : ''].filter(Boolean).join(' ');
 }
 

@@ -3,18 +3,17 @@
 import { table } from './dom.js';
 import { isNumber, number, percent, plain } from './format.js';
 import { lobeTitle } from './lobes.js';
+import { isDoubtful, isWrong, symbolOf } from './judged.js';
 
 const shown = { stable: 'circle', chatter: 'x', marginal: 'diamond' };
 
 /** The judged cuts of a run, each chart's own list. */
 export const observedOf = (run) => (run.summary.lobes ?? []).filter((chart) => chart.observed).map((chart) => ({ chart: chart.name, ...chart.observed }));
 
-const wrong = (cut) => cut.right === false;
-
 function note(cut) {
   const said = cut.predicted_stable ? 'stable' : 'chatter';
   const chance = isNumber(cut.chatter_probability) ? `, ${percent(cut.chatter_probability, 2)} of the draws chatter` : '';
-  return plain(`${number(cut.spindle_speed_rpm, 5)} rpm, ${number(cut.depth_m * 1e3, 3)} mm: seen ${cut.observed}, predicted ${said}${chance}`);
+  return plain(`${number(cut.spindle_speed_rpm, 5)} rpm, ${number(cut.depth_m * 1e3, 3)} mm: seen ${cut.observed}, predicted ${said}${isDoubtful(cut) ? ', which is doubtful' : ''}${chance}`);
 }
 
 /** A trace for each outcome: its sign says what was seen, a thick ring that the prediction is wrong. Of several charts the last is shown. */
@@ -27,7 +26,7 @@ export function observedMarks(runs, colours) {
       if (!cuts.length) return [];
       const colour = { stable: colours.good, chatter: colours.bad, marginal: colours.mark }[outcome];
       return [{ name: `${runs.length > 1 ? `${plain(run.label)}: ` : ''}seen ${outcome}`, x: cuts.map((c) => c.spindle_speed_rpm), y: cuts.map((c) => c.depth_m * 1e3), mode: 'markers', cliponaxis: false,
-        marker: { symbol: cuts.map((c) => (wrong(c) ? `${symbol}-open` : symbol)), size: cuts.map((c) => (wrong(c) ? 13 : 8)), color: colour, line: { width: cuts.map((c) => (wrong(c) ? 2.5 : 1)), color: colour } },
+        marker: { symbol: cuts.map((c) => symbolOf(c, symbol)), size: cuts.map((c) => (isWrong(c) ? 13 : 8)), color: colour, line: { width: cuts.map((c) => (isWrong(c) ? 2.5 : 1)), color: colour } },
         customdata: cuts.map(note), hovertemplate: '%{customdata}', meta: `observed ${i} ${outcome}` }];
     });
   });
@@ -53,7 +52,7 @@ export function observedTable(run) {
   const certain = (c) => (c ? `stable ${c.certainly_stable} (${c.certainly_stable_that_chattered} chattered), chatter ${c.certainly_unstable} (${c.certainly_unstable_that_were_stable} stable), open ${c.open}` : null);
   const columns = [
     ['Chart', (o) => lobeTitle(o.chart)], ['Right, 95 % interval', (o) => share(o.prediction)], ['Zeroth order', (o) => share(o.textbook)],
-    ['Stable but predicted chatter', (o) => o.stable_wrong], ['Chatter but predicted stable', (o) => o.chatter_wrong], ['Marginal', (o) => o.marginal], ['Certain', (o) => certain(o.certainty)],
+    ['Stable but predicted chatter', (o) => o.stable_wrong], ['Chatter but predicted stable', (o) => o.chatter_wrong], ['Marginal', (o) => o.marginal], ['Doubtful', (o) => o.doubtful ?? null], ['Certain', (o) => certain(o.certainty)],
     ['Frequencies, median difference', (o) => (isNumber(o.median_frequency_difference_relative) ? `${o.frequencies_heard}, ${percent(o.median_frequency_difference_relative, 2)}` : null)],
   ].filter(([, of]) => list.some((o) => of(o) !== null));
   return table('Cuts that were made', columns.map(([head]) => head), list.map((o) => columns.map(([, of]) => of(o))), true);

@@ -9,11 +9,10 @@ import { lobeTitle, withRobot } from './lobes.js';
 import { growing, onShownPoint, showPoint, shownPoint, simulatedPoints, titleOf } from './simulated.js';
 
 const origins = { tooth_passing: ['tooth passing', 'part', 'circle'], spindle: ['spindle', 'robot', 'square'], other: ['chatter', 'bad', 'x'] };
-const motions = { periodic: () => 'repeats itself with the cut', period_n: (p) => `repeats itself after ${p.period} periods of the cut`, quasi_periodic: () => 'never repeats itself', growing: () => 'grows' };
+const motions = { periodic: () => 'repeats itself with the cut', period_n: (p) => `repeats itself after ${p.period} periods of the cut`, quasi_periodic: (p) => `never repeats itself${stable(p) ? ', though small ones decay: settle more turns, or it is chatter that a large enough disturbance begins' : ''}`, growing: () => 'grows', settling: (p) => `has not settled, though small ones decay${isNumber(p.period_difference) ? `: it still changes by ${percent(p.period_difference, 2)} of its size` : ''}` };
 const micrometresOf = (vector) => (vector ? `${number(vector[0] * 1e6, 4)}, ${number(vector[1] * 1e6, 4)} µm` : null); // along the feed, across
 const stable = (p) => isNumber(p.growth?.lobes_modulus) && p.growth.lobes_modulus < 1;
-const unsettled = (p) => stable(p) && (p.motion === 'quasi_periodic' || p.motion === 'growing');
-const motionOf = (p) => (p.approach?.length ? 'enters at a border' : p.status === 'overflowed' ? `outgrew the cutter after ${number(p.simulated_s, 3)} s` : `${unsettled(p) ? `has not settled, though small ones decay${isNumber(p.period_difference) ? `: it still changes by ${percent(p.period_difference, 2)} of its size` : ''}` : motions[p.motion]?.(p) ?? p.motion}${p.status === 'unsettled' ? '; forces did not settle' : ''}`);
+const motionOf = (p) => (p.approach?.length ? 'enters at a border' : p.status === 'overflowed' ? `outgrew the cutter after ${number(p.simulated_s, 3)} s` : p.status === 'surface_lost' ? `is too fast or too large for exact paths after ${number(p.simulated_s, 3)} s: take simulation.paths = "region"` : `${motions[p.motion]?.(p) ?? p.motion}${p.status === 'unsettled' ? '; forces did not settle' : ''}`);
 
 /** The section's content; null where nothing was simulated. */
 export function simulation(runs) {

@@ -1,0 +1,33 @@
+#pragma once
+// Cutting coefficients of materials as they were published, with their spread.
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace thinwall::setup {
+
+/// The coefficients of one material and one tool, N/m², with their source.
+struct PublishedCut {
+  std::string_view material;
+  double K_t = 0.0, K_r = 0.0;
+  std::string_view tool;
+  std::string_view source;
+};
+
+/// The table, sorted by material. No entry's source prints the range of chip thickness that was measured.
+[[nodiscard]] std::span<const PublishedCut> published_cuts();
+
+/// The middle of what was published of a material: geometric means, and the larger of the standard deviations of
+/// ln K_t and ln K_r between tools, as p₀ and s of an uncertain parameter p₀ e^{s z}
+/// (milling/observed/uncertain_cut.hpp), which has one s for all coefficients.
+struct MaterialCoefficients {
+  double K_t = 0.0, K_r = 0.0;  ///< N/m²
+  double spread = 0.0;
+  int tools = 0;  ///< ≥ 2
+};
+
+/// Of a material of the table; none of another.
+[[nodiscard]] std::optional<MaterialCoefficients> coefficients_of(std::string_view material);
+
+}  // namespace thinwall::setup
