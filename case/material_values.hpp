@@ -1,5 +1,5 @@
 #pragma once
-// What cutting.material fills in.
+// Coefficients and their spread, put in by cutting.material.
 
 #include "case/values.hpp"
 

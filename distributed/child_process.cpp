@@ -42,7 +42,7 @@ std::vector<std::string> environment_with(const std::map<std::string, std::strin
   return all;
 }
 
-/// What the new process does after the fork: only calls that are safe there.
+/// The part of the new process after the fork, of calls alone that are safe there.
 [[noreturn]] void become(pid_t parent, int in, int out, int errors, char* const* words, char* const* environment) {
   constexpr int not_started = 127;
   ::setpgid(0, 0);

@@ -239,7 +239,7 @@ void RankTeam::Impl::start() {
                            library));
 }
 
-/// What the analysis of a matrix tells (docs/scaling.md).
+/// The memory and time that the analysis of a matrix foresees (docs/scaling.md).
 struct RankForecast {
   double machine_bytes = 0.0;  ///< that the ranks on the fullest machine will take beside what they hold now
   double free_bytes = 0.0;     ///< there

@@ -268,7 +268,7 @@ struct Search {
   bool converged = false;
 };
 
-/// What is fitted.
+/// The measured forces, and the cuts and the tool that made them.
 struct Fitted {
   const milling::Cutter& cutter;
   const std::vector<ForceRecord>& records;

@@ -46,8 +46,9 @@ struct NextCut {
                                                              const std::vector<double>& speeds_rpm,
                                                              const std::vector<milling::OperatingPoint>& candidates);
 
-/// The same where the best speed of every draw is known, that of cut i of cuts_of_draws(calibration, best_rpm.size())
-/// at i, none where it has no limit. Throws as next_cut(), and InputError for more speeds than draws.
+/// The next cut for the best speed, where the best speed of every draw is known, that of cut i of
+/// cuts_of_draws(calibration, best_rpm.size()) at i, none where it has no limit. Throws as next_cut(), and InputError
+/// for more speeds than draws.
 [[nodiscard]] std::optional<NextCut> next_cut_for_best_speed(const Calibration& calibration,
                                                              const std::vector<std::optional<double>>& best_rpm,
                                                              const std::vector<milling::OperatingPoint>& candidates);

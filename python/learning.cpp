@@ -44,7 +44,7 @@ py::tuple tuple_of(const learning::FittedCoefficient& c) {
   return py::make_tuple(c.value, c.half_interval);
 }
 
-/// What both fits have: each coefficient as value and half interval.
+/// The entries that both fits have: each coefficient as value and half interval.
 template <typename Fit>
 py::dict dict_of_fit(const Fit& fit) {
   py::dict result;

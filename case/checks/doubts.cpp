@@ -90,7 +90,7 @@ void ask_about_robot_damping(const Case& source, std::vector<std::string>& doubt
                    ": did you mean damping_ratio = " + written + "?");
 }
 
-/// What a chart does with the spread of a material, or why it does nothing.
+/// A clause on the use that the robust chart makes of a material's spread; empty where there is no such chart.
 std::string use_of_spread(const Case& source, double spread) {
   if (!source.lobes || !source.lobes->robust) return "";
   const double taken = source.lobes->robust->uncertainty.coefficients;

@@ -10,7 +10,7 @@
 
 namespace thinwall::distributed {
 
-/// What MUMPS forecasts after its analysis.
+/// The forecast of MUMPS after its analysis.
 struct Forecast {
   double machine_bytes = 0.0;  ///< beside what is held now, on the machine whose memory is used most
   double free_bytes = 0.0;     ///< there
@@ -21,7 +21,7 @@ struct Forecast {
   double analysis_s = 0.0;
 };
 
-/// What the numeric phase has come to. `negative_pivots` is INFOG(12); `error` and `detail` are INFOG(1) and (2), of
+/// The outcome of the numeric phase. `negative_pivots` is INFOG(12); `error` and `detail` are INFOG(1) and (2), of
 /// which a negative error is explained in section 8 of MUMPS' manual.
 struct Outcome {
   double seconds = 0.0;

@@ -71,7 +71,7 @@ SimulatedCut over_turns(Marched& motion, const MillingProcess& process, double f
   result.trace.start_s = untraced * period_s;
   result.walls = wall.walls();
   record.finish(std::max(1, period - settling) * of.period_rad);
-  if (ended_early(result.status)) result.motion = {Motion::growing, 0, 0.0};
+  if (!motion.within(0.5 * process.cutter.diameter_m)) result.motion = {Motion::growing, 0, 0.0};
   return result;
 }
 

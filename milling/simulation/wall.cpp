@@ -52,8 +52,9 @@ double deepest_place(const TipPath& path) {
   return path.x_m(at);
 }
 
-/// How far from its deepest place, m, a pass may take more than those of another turn: the parabola of its arc, x²/2R,
-/// is by then as far out. `a_turn` passes make a turn, of which the deepest counts, so that runout is no difference.
+/// The distance from its deepest place, m, up to which a pass may take more than those of another turn: the parabola of
+/// its arc, x²/2R, is by then as far out. `a_turn` passes make a turn, of which the deepest counts, so that runout is
+/// no difference.
 double reach_of_deepest(const std::vector<const TipPath*>& paths, std::size_t a_turn, double radius_m) {
   double least = std::numeric_limits<double>::infinity(), most = -least;
   for (std::size_t first = 0; first + a_turn <= paths.size(); first += a_turn) {

@@ -27,7 +27,7 @@ struct MaterialCoefficients {
   int tools = 0;  ///< ≥ 2
 };
 
-/// Of a material of the table; none of another.
+/// The middle of a material's published coefficients; none of one that the table does not have.
 [[nodiscard]] std::optional<MaterialCoefficients> coefficients_of(std::string_view material);
 
 }  // namespace thinwall::setup

@@ -81,7 +81,7 @@ TEST(CutMaterial, FillsInCoefficientsAndTheirSpread) {
   EXPECT_EQ(again.lobes->robust->uncertainty.coefficients, middle.spread);
 }
 
-/// What is told of cutting.material.
+/// The doubt that is told of cutting.material.
 std::string told_of(const Case& source) {
   for (const std::string& doubt : doubts_about(source))
     if (doubt.starts_with("cutting.material")) return doubt;

@@ -30,7 +30,7 @@ struct Machines {
   Eigen::VectorXd log_best;
 };
 
-/// How fine the study is.
+/// The fineness of the study.
 struct Study {
   int machines = 200;  ///< draws of what is known beforehand
   int speeds = 40;     ///< among which the best one is looked for
