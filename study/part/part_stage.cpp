@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
@@ -22,6 +23,7 @@
 #include "mesh/surface/wall_thickness.hpp"
 #include "mesh/volume/surface_to_volume.hpp"
 #include "reduction/damping.hpp"
+#include "reduction/methods/static_flexibility.hpp"
 #include "reduction/trust/accuracy.hpp"
 #include "reduction/trust/full_response.hpp"
 #include "reduction/trust/mode_count.hpp"
@@ -60,13 +62,17 @@ void require_solved_for_check(double relative_error) {
   require_solved(relative_error, 1e-3, "or leave out the check (reduction.check_frequencies = 0)");
 }
 
+/// The full model, with the motions that nothing holds.
+reduction::FullModel full_model(const PartResult& part) {
+  return {part.model.K, part.model.M, part.model.node_of_row, part.modes.pairs.Phi.leftCols(part.modes.rigid_motions)};
+}
+
 /// As many modes as a tolerance on the interface's receptance needs.
 void reduce_to_tolerance(const setup::PartSetup& source, PartResult& part) {
   reduction::Band band{source.response.from_hz, source.response.to_hz};
   if (const double least = least_loss_factor(source.damping, part.modes, band.from_hz, band.to_hz); least > 0.0)
     band.loss_factor = least;
-  const reduction::FullModel full{part.model.K, part.model.M, part.model.node_of_row,
-                                  part.modes.pairs.Phi.leftCols(part.modes.rigid_motions)};
+  const reduction::FullModel full = full_model(part);
   const auto truth = reduction::band_truth(full, part.interface, band);
   require_solved(truth.max_relative_error, std::max(reduction::small_error, 0.1 * *source.reduction.tolerance),
                  "or take a larger reduction.tolerance");
@@ -111,18 +117,16 @@ void reduce(const setup::PartSetup& source, PartResult& part, const fem::Factore
 }
 
 /// Undamped receptances of the full model at a few frequencies between its resonances. A held part's factor serves all
-/// of them; a free part, whose K has no inverse, is factored anew at each.
+/// of them; the K of a free part has no inverse, and its elastic flexibility takes that place.
 std::vector<reduction::FullReceptance> full_receptances(const PartResult& part, const fem::Factored& factored,
                                                         const std::vector<double>& hz) {
-  if (factored.sigma != 0.0) {
-    auto direct = reduction::full_receptances(part.model.K, part.model.M, part.model.node_of_row, part.interface, hz);
-    for (const auto& line : direct) require_solved_for_check(line.relative_error);
-    return direct;
-  }
+  std::optional<reduction::StaticFlexibility> elastic;
+  if (factored.sigma != 0.0) elastic.emplace(full_model(part));
+  const linalg::ShiftedInverse inverse = elastic ? elastic->action() : fem::inverse_of(factored);
   dynamics::FrequencyAxis axis;
   axis.hz = Eigen::Map<const Eigen::VectorXd>(hz.data(), static_cast<Eigen::Index>(hz.size()));
-  const auto full = reduction::full_response(part.model.K, part.model.M, fem::inverse_of(factored), part.modes.pairs,
-                                             {}, 0.0, part.interface, axis);
+  const auto full =
+      reduction::full_response(part.model.K, part.model.M, inverse, part.modes.pairs, {}, 0.0, part.interface, axis);
   require_solved_for_check(full.max_relative_error);
   std::vector<reduction::FullReceptance> result;
   for (std::size_t i = 0; i < hz.size(); ++i)
