@@ -10,7 +10,7 @@ remark before a block says what becomes of it:
     <!-- run -->                            its commands, in order; each must end with exit code 0
     <!-- run; exit 6 -->                    ... the last one with this, or with a word behind that which has it
     <!-- run; exit 6; miss first mode -->   ... and only the expectations that are named are missed, with exit code 6
-    <!-- run; add --set lobes.count=9 -->   ... with this added to every thinwall run, lobes or reduce, to be quick
+    <!-- run; add --set lobes.count=9 -->   ... with this added to every thinwall run, lobes, reduce, simulate or postures, to be quick
     <!-- run; with docs/tutorials/tip -->   ... with the files of this folder at hand
     <!-- run; as check wall-path -->        ... `thinwall check` in place of `thinwall run` where this case is run (all: no name)
     <!-- printed -->                        every line must be in what the block before printed; "…" stands for anything
@@ -206,7 +206,7 @@ class Runner:
         for number, command in enumerate(commands):
             if checked is not None and (not checked or any(word in command for word in checked)):
                 command = command.replace("thinwall run ", "thinwall check ")
-            if added and "--help" not in command and re.search(r"thinwall (run|lobes|reduce) ", command):
+            if added and "--help" not in command and re.search(r"thinwall (run|lobes|reduce|simulate|postures) ", command):
                 command += f" {added}"
             expected = next((int(code) for code, *words in exits if any(word in command for word in words)
                              or not words and number == len(commands) - 1), 0)
