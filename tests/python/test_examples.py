@@ -57,7 +57,7 @@ COARSE = {  # what makes a case quick, if no page of the docs shows it anyway
     "huynh-2017-support": ("part.mesh.tolerance=0.05", "path.positions=3", "lobes.count=3"),
     "irb6660-measured": ("part.mesh.tolerance=0.05", "lobes.count=3"),
     "posture-map": ("lobes.count=20",),
-    "pocketed-rib": ("part.mesh.tolerance=0.1", "lobes.count=10"),
+    "pocketed-rib": ("part.mesh.tolerance=0.1", "reduction.tolerance=0.1", "lobes.count=10"),
 }
 
 
