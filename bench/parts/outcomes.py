@@ -1,5 +1,6 @@
 """Names for how a run on a part ended, the figures of its row, and their summary against the bars."""
 
+import datetime
 import math
 import statistics
 
@@ -45,6 +46,16 @@ def figures(summary):
             "frequencies_hz": [mode["frequency_hz"] for mode in modes if not mode.get("rigid_body")]}
 
 
+def seconds_to_first_answer(log):
+    """From the first line of a run's log to its first solution with an estimate, the second one of a mesh; None if the
+    log has none. The log's clock has whole seconds."""
+    first = next((line for line in log if "frequencies changed by" in line), None)
+    if first is None:
+        return None
+    begun, answered = (datetime.datetime.fromisoformat(line.split()[0]) for line in (log[0], first))
+    return (answered - begun).total_seconds()
+
+
 def has_answer(row):
     return row["outcome"] in (MET, ESTIMATED)
 
@@ -71,18 +82,23 @@ def share(rows, holds):
     return sum(map(holds, rows)) / len(rows) if rows else math.nan
 
 
+def first_answer(row):
+    """Seconds to the first solution with an estimate; of a run whose log names none, to its end."""
+    return row["wall_s"] if row.get("first_answer_s") is None else row["first_answer_s"]
+
+
 def summary_of(rows):
     """What is held against the bars: (words, figure, bar in words, True if it holds; None where there is no bar)."""
     ratios = [row["error_over_estimate"] for row in rows if row.get("error_over_estimate") is not None]
     broken = sum(row["outcome"] in (CRASH, INTERNAL) for row in rows)
     unsound = sum(has_answer(row) and row.get("rigid_motions") != 6 for row in rows)
     answered, met = share(rows, has_answer), share(rows, lambda row: row["outcome"] == MET)
-    prompt = share(rows, lambda row: has_answer(row) and row["processor_s"] <= BARS["first_answer_s"])
+    prompt = share(rows, lambda row: has_answer(row) and first_answer(row) <= BARS["first_answer_s"])
     lines = [("parts with an answer", percent(answered), f"≥ {percent(BARS['answer'])}", answered >= BARS["answer"]),
              ("within tolerance by their estimate", percent(met), f"≥ {percent(BARS['met'])}", met >= BARS["met"]),
              ("crashes and internal errors", str(broken), "0", broken == 0),
              ("answers without six rigid motions", str(unsound), "0", unsound == 0),
-             (f"answers in {BARS['first_answer_s']:g} s of processor time", percent(prompt),
+             (f"first answers within {BARS['first_answer_s']:g} s", percent(prompt),
               f"≥ {percent(BARS['first_answer'])}", prompt >= BARS["first_answer"])]
     lines.append(("runs above the memory given", str(sum(row.get("above_memory", False) for row in rows)), "0",
                   not any(row.get("above_memory", False) for row in rows)))

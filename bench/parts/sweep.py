@@ -62,10 +62,11 @@ def row_of(path, settings, folder):
     summary = json.loads(summary_file.read_text()) if summary_file.exists() else None
     message = last_message(done, folder)
     timed_out = done.failure.startswith("stopped at the limit")
+    told = log.read_text(errors="replace").splitlines() if log.exists() else []
     row = {"file": path.name, "outcome": outcomes.outcome(done.exit_code, timed_out, message, summary),
            "wall_s": done.wall_s, "processor_s": done.cpu_s, "memory_bytes": done.peak_memory_bytes,
            "above_memory": done.peak_memory_bytes > settings.memory * 1e9, "message": message,
-           "log": log.read_text(errors="replace").splitlines()[-40:] if log.exists() else []}
+           "first_answer_s": outcomes.seconds_to_first_answer(told), "log": told[-40:]}
     if outcomes.has_answer(row):
         row.update(outcomes.figures(summary), message="")
         row["volume_m3"] = summary["part"]["mass_kg"] / DENSITY_KG_M3

@@ -138,12 +138,23 @@ class Outcomes(unittest.TestCase):
         self.assertAlmostEqual(row["error_over_estimate"], 1.5)
 
     def test_the_summary_holds_rows_against_the_bars(self):
-        row = {"outcome": outcomes.MET, "processor_s": 3.0, "rigid_motions": 6}
-        rows = [dict(row) for _ in range(19)] + [{"outcome": outcomes.CRASH, "processor_s": 1.0}]
+        row = {"outcome": outcomes.MET, "wall_s": 30.0, "first_answer_s": 3.0, "rigid_motions": 6}
+        rows = [dict(row) for _ in range(19)] + [{"outcome": outcomes.CRASH, "wall_s": 1.0}]
         held = {words: holds for words, _, _, holds in outcomes.summary_of(rows)}
         self.assertTrue(held["parts with an answer"])
         self.assertFalse(held["crashes and internal errors"])
         self.assertFalse(any(holds for *_, holds in outcomes.summary_of(rows[17:])[:1]))  # two of three
+
+    def test_the_first_answer_is_the_first_estimate_of_the_log(self):
+        log = ["2026-11-26T23:59:58+00:00 debug stage: forecast",
+               "2026-11-27T00:00:01+00:00 info level 0, order 3: 9414 degrees of freedom",
+               "2026-11-27T00:00:03+00:00 info level 0, order 4: 20775 degrees of freedom, frequencies changed by 1.05e-01",
+               "2026-11-27T00:00:09+00:00 info level 0, order 5: 38787 degrees of freedom, frequencies changed by 1e-02"]
+        self.assertEqual(outcomes.seconds_to_first_answer(log), 5.0)
+        self.assertIsNone(outcomes.seconds_to_first_answer(log[:2]))
+        self.assertIsNone(outcomes.seconds_to_first_answer([]))
+        late = {"outcome": outcomes.MET, "wall_s": 11.0, "first_answer_s": None, "rigid_motions": 6}
+        self.assertFalse({words: holds for words, _, _, holds in outcomes.summary_of([late])}["first answers within 10 s"])
 
     def test_the_limit_of_two_meshes(self):
         # f = 100 (1 + 0.1 h²) with h = 0.4 and 0.2, so eight times as many tetrahedra
@@ -178,8 +189,8 @@ class Sweep(unittest.TestCase):
     def test_a_page_shows_every_row_and_escapes_texts(self):
         kept = {"time_s": 30.0, "processor_time_s": 60.0, "memory_gb": 6.0, "threads": 2, "tolerance": 0.01,
                 "machine": {"processor": "any"}}
-        rows = [{"file": "a.stl", "outcome": outcomes.MET, "processor_s": 1.0, "rigid_motions": 6, "estimate": 0.004},
-                {"file": "b<c>.stl", "outcome": outcomes.REFUSED, "processor_s": 1.0, "message": "1 < 2"}]
+        rows = [{"file": "a.stl", "outcome": outcomes.MET, "wall_s": 1.0, "processor_s": 1.0, "rigid_motions": 6, "estimate": 0.004},
+                {"file": "b<c>.stl", "outcome": outcomes.REFUSED, "wall_s": 1.0, "processor_s": 1.0, "message": "1 < 2"}]
         text = page.page(kept, rows)
         self.assertIn("b&lt;c&gt;.stl", text)
         self.assertIn("1 &lt; 2", text)
