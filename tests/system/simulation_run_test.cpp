@@ -244,7 +244,7 @@ TEST(SimulationRun, TellsThatTooFewStepsMissAPartOfTheCut) {
     const RunResult result = run_case(parse_case(text, "."), {scratch("simulation_removal"), true, -1, false});
     const std::string told = report::terminal_report(result.summary, "there");
     EXPECT_EQ(told.find("steps are too few, from") != std::string::npos, steps == "90") << told;
-    return json::parse(core::read_file(scratch("simulation_removal") / "summary.json"))["simulation"]["points"][0];
+    return summary_json(result.summary)["simulation"]["points"][0];
   };
   EXPECT_EQ(point("2880")["status"], "completed");
   EXPECT_LT(std::abs(point("2880")["removal_error_relative"].get<double>()), 1e-3);
