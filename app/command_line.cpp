@@ -81,14 +81,15 @@ ExitCode compute(const Arguments& arguments, const cases::Case& source, const Ru
   log_to_file(folder.path() / "run.log");
   messages_to_log();
   const auto ranks = start_ranks(arguments.ranks);
-  const RunResult result = run_case(source, {folder.path(),
-                                             arguments.fresh,
-                                             verbosity,
-                                             display == ProgressDisplay::line,
-                                             points,
-                                             display == ProgressDisplay::lines,
-                                             {},
-                                             &folder});
+  const RunOptions options{folder.path(),
+                           arguments.fresh,
+                           verbosity,
+                           display == ProgressDisplay::line,
+                           points,
+                           display == ProgressDisplay::lines,
+                           {},
+                           &folder};
+  const RunResult result = report::unless_refused(folder, [&] { return run_case(source, options); });
   out << coloured(report(result.summary, folder.path().string()), style_for(out));
   return result.expectations_hold ? ExitCode::done : ExitCode::expectation;
 }

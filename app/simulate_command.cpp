@@ -65,6 +65,32 @@ cases::Case read_for_options(const std::filesystem::path& path, const std::vecto
   }
 }
 
+/// Simulates a case and publishes its tables; returns the text for the terminal.
+std::string simulated_into(const cases::Case& source, const report::ResultFolder& folder, ProgressDisplay display) {
+  const auto first_mesh = tell_of_long_run(source);
+  for (const std::string& doubt : cases::doubts_about(source)) core::warn(doubt);
+  const auto cache = folder.path() / "cache";
+  const auto kept_under = [&cache](const std::string& stage, const std::string& key) {
+    return key.empty() ? study::Checkpoint() : study::Checkpoint(cache / (stage + ".bin"), key, false);
+  };
+  study::Kept kept{kept_under("part", source.part ? study::part_key(source) : ""),
+                   {},
+                   {},
+                   {cache / "simulated.bin", study::simulation_key(source), false},
+                   kept_under("tool", study::tool_key(source)),
+                   kept_under("robot", study::robot_key(source))};
+  StageDisplay stages(display);
+  const study::Results results =
+      study::run(source, cases::variation_of(source), kept, {.on_stage = stages.listener(), .first_mesh = first_mesh});
+  const auto staging = core::partial_path(folder.path() / "simulated");
+  report::write_simulation(staging, results);
+  report::publish_folder(staging / "simulation", folder.path() / "simulated");
+  std::filesystem::remove(staging);
+  return (source.title.empty() ? "" : source.title + "\n") +
+         report::simulation_text(report::summary_of(results.setup, results)) +
+         "  tables: " + (folder.path() / "simulated").string() + "\n";
+}
+
 }  // namespace
 
 cases::Case simulated_case(const std::filesystem::path& path, std::vector<std::string> overrides,
@@ -88,31 +114,10 @@ cases::Case simulated_case(const std::filesystem::path& path, std::vector<std::s
 std::string simulate_case(cases::Case source, const std::filesystem::path& out, ProgressDisplay display) {
   source.lobes.reset();
   source.path.reset();
-  const report::ResultFolder folder(out.empty() ? report::default_result_folder(source.name) : out);
+  report::ResultFolder folder(out.empty() ? report::default_result_folder(source.name) : out);
   log_to_file(folder.path() / "run.log");  // marks the folder as ours
   messages_to_log();
-  const auto first_mesh = tell_of_long_run(source);
-  for (const std::string& doubt : cases::doubts_about(source)) core::warn(doubt);
-  const auto cache = folder.path() / "cache";
-  const auto kept_under = [&cache](const std::string& stage, const std::string& key) {
-    return key.empty() ? study::Checkpoint() : study::Checkpoint(cache / (stage + ".bin"), key, false);
-  };
-  study::Kept kept{kept_under("part", source.part ? study::part_key(source) : ""),
-                   {},
-                   {},
-                   {cache / "simulated.bin", study::simulation_key(source), false},
-                   kept_under("tool", study::tool_key(source)),
-                   kept_under("robot", study::robot_key(source))};
-  StageDisplay stages(display);
-  const study::Results results =
-      study::run(source, cases::variation_of(source), kept, {.on_stage = stages.listener(), .first_mesh = first_mesh});
-  const auto staging = core::partial_path(folder.path() / "simulated");
-  report::write_simulation(staging, results);
-  report::publish_folder(staging / "simulation", folder.path() / "simulated");
-  std::filesystem::remove(staging);
-  return (source.title.empty() ? "" : source.title + "\n") +
-         report::simulation_text(report::summary_of(results.setup, results)) +
-         "  tables: " + (folder.path() / "simulated").string() + "\n";
+  return report::unless_refused(folder, [&] { return simulated_into(source, folder, display); });
 }
 
 }  // namespace thinwall::app

@@ -128,7 +128,8 @@ void bind_simulation(py::module_& module) {
              "entry to exit; exact paths take 720 a turn. Returns a dict of figures over the recorded turns, with\n"
              "samples once a tooth (passes), the last traced_turns sample by sample (trace) and the walls of the last\n"
              "wall_turns. Displacements are those of tool minus part, forces act on the tool, both in the axes of the\n"
-             "cut (feed, normal, axis). status: completed, overflowed, unsettled or surface_lost.");
+             "cut (feed, normal, axis). status: completed, overflowed, unsettled,\n"
+             "surface_lost or too_coarse.");
   module.def("simulated_growth", growth, "structure"_a, "process"_a, "spindle_speed_rpm"_a, "depth_m"_a, py::kw_only(),
              "at"_a = py::none(), "steps"_a = 200,
              "The factor by which a small vibration grows in a period of the simulated cut, as a dict of multiplier,\n"

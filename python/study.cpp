@@ -116,7 +116,7 @@ py::dict simulation_of(const study::PointSimulation& p) {
   point["multiplier_lobes"] = number_or_none(std::isfinite(p.lobes.modulus), p.lobes.modulus);
   point["growth_difference"] = number_or_none(p.growth.converged, p.growth_difference());
   point["forced_difference"] = number_or_none(p.forced.has_value(), p.forced ? p.forced->difference : 0.0);
-  point["removal_error"] = number_or_none(p.removal_error.has_value(), p.removal_error.value_or(0.0));
+  point["removal_error"] = number_or_none(p.cut.removal_error.has_value(), p.cut.removal_error.value_or(0.0));
   if (!p.lag_m.empty()) point["lag_m"] = p.lag_m;
   return point;
 }

@@ -30,6 +30,14 @@ void make_folder(const std::filesystem::path& folder) {
   if (error) refuse(folder, error.message());
 }
 
+/// The folder, if it is there, or the nearest one around it that is.
+std::filesystem::path nearest_present(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::path present = std::filesystem::absolute(folder, error);
+  while (!std::filesystem::exists(present, error) && present.has_relative_path()) present = present.parent_path();
+  return present;
+}
+
 /// Folders that a run replaces must be a run's own.
 void refuse_foreign_content(const std::filesystem::path& folder) {
   if (std::filesystem::exists(folder / "run.log") || std::filesystem::exists(folder / "manifest.json")) return;
@@ -77,8 +85,9 @@ std::filesystem::path default_result_folder(const std::string& case_name) {
   return std::filesystem::path("results") / (case_name.empty() ? "case" : case_name);
 }
 
-ResultFolder::ResultFolder(std::filesystem::path folder) : path_(std::move(folder)) {
+ResultFolder::ResultFolder(std::filesystem::path folder) : path_(std::move(folder)), present_(nearest_present(path_)) {
   make_folder(path_);
+  was_empty_ = std::filesystem::is_empty(path_);
   refuse_foreign_content(path_);
   lock_ = lock_folder(path_);
   remove_unfinished_files(path_);
@@ -101,6 +110,18 @@ ResultFolder::~ResultFolder() {
 void ResultFolder::publish(const std::filesystem::path& staging) {
   std::optional<FolderLock> next = FolderLock::of(staging);
   if (report::publish(staging, path_) == Published::by_exchange && next) lock_ = std::move(*next);
+}
+
+void ResultFolder::leave_nothing() noexcept {
+  if (!was_empty_) return;
+  std::error_code error;
+  std::vector<std::filesystem::path> written;
+  for (const auto& entry : std::filesystem::directory_iterator(path_, error)) written.push_back(entry.path());
+  for (const auto& path : written) std::filesystem::remove_all(path, error);
+  for (auto folder = std::filesystem::absolute(path_, error); folder != present_ && !folder.empty();
+       folder = folder.parent_path()) {
+    if (folder.has_filename() && !std::filesystem::remove(folder, error)) return;
+  }
 }
 
 void remove_unfinished_files(const std::filesystem::path& folder) {

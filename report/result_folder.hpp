@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 
+#include "core/error.hpp"
 #include "report/folder_lock.hpp"
 #include "setup/machining_setup.hpp"
 
@@ -28,10 +29,28 @@ class ResultFolder {
   /// Publishes `staging` here as publish() does; the folder stays locked.
   void publish(const std::filesystem::path& staging);
 
+  /// Removes all that was written there, with the folders that were made for it, where it was empty before: for a run
+  /// that is refused.
+  void leave_nothing() noexcept;
+
  private:
   std::filesystem::path path_;
+  std::filesystem::path present_;  ///< the nearest folder around it that was there before, or itself
+  bool was_empty_ = true;
   FolderLock lock_;
 };
+
+/// body(), which computes into the folder; where it throws InputError, for what the user asked for cannot be computed,
+/// nothing is left there.
+template <class Body>
+auto unless_refused(ResultFolder& folder, const Body& body) {
+  try {
+    return body();
+  } catch (const core::InputError&) {
+    folder.leave_nothing();
+    throw;
+  }
+}
 
 /// Removes unfinished files (core::is_partial_name) anywhere below `folder`.
 void remove_unfinished_files(const std::filesystem::path& folder);

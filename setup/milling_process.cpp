@@ -1,29 +1,11 @@
 #include "setup/milling_process.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
-#include "core/messages.hpp"
 #include "milling/cut/chip_load.hpp"
 #include "milling/cut/oblique_cutting.hpp"
 
 namespace thinwall::setup {
 
 namespace {
-
-void set_engagement(const Cutting& c, milling::MillingProcess& process) {
-  if (c.radial_depth) {
-    const auto direction = c.down_milling ? milling::MillingDirection::down : milling::MillingDirection::up;
-    process.engagement = milling::engagement_of(process.cutter, *c.radial_depth, direction);
-    return;
-  }
-  for (std::size_t i = 0; i < c.entry_angles.size(); ++i) {
-    const milling::Engagement arc{c.entry_angles[i], c.exit_angles[i]};
-    if (i == 0) process.engagement = arc;
-    else process.further_engagements.push_back(arc);
-  }
-}
 
 milling::CuttingCoefficients oblique(const Cutting& c, double helix) {
   const OrthogonalData& o = c.orthogonal;
@@ -43,23 +25,11 @@ void set_oblique(const Cutting& c, milling::MillingProcess& process) {
   for (const double helix : helices) process.tooth_coefficients.push_back(oblique(c, helix));
 }
 
-void warn_of_missed_chips(const milling::MillingProcess& process, double feed_m) {
-  double least = 1.0;
-  for (const auto& load : milling::chip_loads(process.cutter, arcs(process), feed_m))
-    least = std::min(least, load.share_in_cut);
-  if (least >= 1.0) return;
-  core::warn(fmt::format(
-      "runout lets a tooth cut in {:.1f} % of its arc only; what it misses the next one cuts with the delay of both "
-      "pitches, which the stability analysis does not follow",
-      100.0 * least));
-}
-
 void set_force(const CutSetup& source, milling::MillingProcess& process) {
   const Cutting& c = *source.cutting;
   if (c.law == ForceLawKind::oblique) set_oblique(c, process);
   else if (c.law == ForceLawKind::linear) process.coefficients = {c.Kt, c.Kr, c.Ka, c.Kte, c.Kre, c.Kae};
   else milling::set_force_law(process, force_law(c, process), feed_per_tooth(source).value_or(0.0));
-  if (!process.cutter.runout_m.empty()) warn_of_missed_chips(process, feed_per_tooth(source).value_or(0.0));
 }
 
 }  // namespace
@@ -89,11 +59,26 @@ std::optional<double> feed_per_tooth(const CutSetup& source) {
   return milling::feed_per_tooth_m(cutter_of(*source.tool), *c.feed_rate, *c.spindle_speed_rpm);
 }
 
+std::vector<milling::Engagement> engagement_arcs(const Cutting& c, const milling::Cutter& cutter) {
+  if (c.radial_depth) {
+    const auto direction = c.down_milling ? milling::MillingDirection::down : milling::MillingDirection::up;
+    return {milling::engagement_of(cutter, *c.radial_depth, direction)};
+  }
+  std::vector<milling::Engagement> arcs;
+  for (std::size_t i = 0; i < c.entry_angles.size() && i < c.exit_angles.size(); ++i)
+    arcs.push_back({c.entry_angles[i], c.exit_angles[i]});
+  return arcs;
+}
+
 milling::MillingProcess milling_process(const CutSetup& source) {
   const Cutting& c = *source.cutting;
   milling::MillingProcess process;
   process.cutter = cutter_of(*source.tool);
-  set_engagement(c, process);
+  const std::vector<milling::Engagement> arcs = engagement_arcs(c, process.cutter);
+  if (!arcs.empty()) {
+    process.engagement = arcs.front();
+    process.further_engagements.assign(arcs.begin() + 1, arcs.end());
+  }
   process.frame = milling::leaning({c.feed_direction, c.tool_axis}, c.lead_angle);
   set_force(source, process);
   process.damping = {c.process_damping, c.process_damping_friction};

@@ -1,5 +1,7 @@
 #include "case/checks/doubts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -121,17 +123,6 @@ void ask_about_cut_material(const Case& source, std::vector<std::string>& doubts
                    "; the range of chip thickness is not published; thinwall coefficients finds those of your tool");
 }
 
-std::vector<milling::Engagement> arcs_of(const setup::Cutting& cutting, const milling::Cutter& cutter) {
-  if (cutting.radial_depth) {
-    const auto direction = cutting.down_milling ? milling::MillingDirection::down : milling::MillingDirection::up;
-    return {milling::engagement_of(cutter, *cutting.radial_depth, direction)};
-  }
-  std::vector<milling::Engagement> arcs;
-  for (std::size_t i = 0; i < cutting.entry_angles.size() && i < cutting.exit_angles.size(); ++i)
-    arcs.push_back({cutting.entry_angles[i], cutting.exit_angles[i]});
-  return arcs;
-}
-
 /// Coefficients that were measured with thicker chips.
 void ask_about_thin_chips(const Case& source, std::vector<std::string>& doubts) {
   const CaseValue* given = find(source.values, "cutting.thinnest_chip");
@@ -139,7 +130,7 @@ void ask_about_thin_chips(const Case& source, std::vector<std::string>& doubts) 
   if (!thinnest || !source.tool || !source.cutting) return;
   const auto feed = setup::feed_per_tooth(source);
   const milling::Cutter cutter = setup::cutter_of(*source.tool);
-  const auto arcs = arcs_of(*source.cutting, cutter);
+  const auto arcs = setup::engagement_arcs(*source.cutting, cutter);
   if (!feed || arcs.empty()) return;
   double mean = *thinnest;
   for (const milling::ChipLoad& load : milling::chip_loads(cutter, arcs, *feed))
@@ -148,6 +139,23 @@ void ask_about_thin_chips(const Case& source, std::vector<std::string>& doubts) 
   doubts.push_back("the mean chip is " + core::readable_text(mean, core::kind::length) +
                    " thick, thinner than cutting.thinnest_chip, " + core::readable_text(*thinnest, core::kind::length) +
                    ", at which the coefficients were measured; thin chips take more force per area");
+}
+
+/// Teeth that runout keeps from a part of their arcs: what one misses is cut with the delay of two pitches.
+void ask_about_missed_chips(const Case& source, std::vector<std::string>& doubts) {
+  if (!source.tool || !source.cutting || source.tool->runout.empty()) return;
+  const auto feed = setup::feed_per_tooth(source);
+  const milling::Cutter cutter = setup::cutter_of(*source.tool);
+  const auto arcs = setup::engagement_arcs(*source.cutting, cutter);
+  if (!feed || arcs.empty()) return;
+  double least = 1.0;
+  for (const milling::ChipLoad& load : milling::chip_loads(cutter, arcs, *feed))
+    least = std::min(least, load.share_in_cut);
+  if (least >= 1.0) return;
+  doubts.push_back(fmt::format(
+      "runout lets a tooth cut in {:.1f} % of its arc only; what it misses the next one cuts with the delay of both "
+      "pitches, which the stability analysis does not follow",
+      100.0 * least));
 }
 
 /// More turns than the part is long.
@@ -176,6 +184,7 @@ std::vector<std::string> doubts_about(const Case& source) {
   ask_about_turns(source, doubts);
   ask_about_cut_material(source, doubts);
   ask_about_thin_chips(source, doubts);
+  ask_about_missed_chips(source, doubts);
   if (const setup::TabledRobot* robot = setup::tabled_robot(source.robot)) {
     const std::vector<std::string> of_postures = setup::doubts_about(*robot);
     doubts.insert(doubts.end(), of_postures.begin(), of_postures.end());

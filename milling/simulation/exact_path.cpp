@@ -55,7 +55,7 @@ void require_usable(const MillingProcess& process, const ForceLaw& law, const Si
   require_usable(process, law, point, options);
   require_valid(validate(stock));
   require_valid(validate(paths));
-  require_whole_steps(options, paths.steps_a_turn);
+  require_whole_steps(options, whole_steps(process, paths.steps_a_turn));
 }
 
 template <class Tool>
@@ -64,7 +64,7 @@ SimulatedCut march(const PathCut& cut, const Tool& tool, const MillingProcess& p
   double farthest = 0.0;
   for (const ToothDisc& disc : cut.discs) farthest = std::max(farthest, disc.earlier.back().ahead_rad);
   const auto remembered = static_cast<std::size_t>((farthest + 0.5 * std::numbers::pi) / cut.node_rad) + 16;
-  EarlierPaths material(stock, cut.radius_m, cut.feed_per_node_m, cut.node_rad, cut.start_m.head<2>(), remembered);
+  EarlierPaths material(stock, cut, remembered);
   return with_chip_force(process, law, [&](const auto& chip_force) {
     return over_path(cut, tool, material, chip_force, process, options, after_turn);
   });

@@ -18,7 +18,7 @@ namespace thinwall::milling {
 
 /// The fineness of exact paths, besides that of SimulationOptions, whose steps in the cut have no meaning here.
 struct PathOptions {
-  int steps_a_turn = 720;                       ///< ≥ 24
+  int steps_a_turn = 720;                       ///< ≥ 24; raised to a multiple of equal teeth
   int earlier_passes = 60;                      ///< ≥ 1 and at most 1000: of teeth, whose surfaces a tooth may meet
   std::optional<OneSidedContact> contact = {};  ///< of a support, that may open
 };
@@ -43,9 +43,8 @@ void require_whole_steps(const SimulationOptions& options, int steps_a_turn);
 /// Forces and motion are those of a step as in march_step.hpp, at equal steps of a turn; the contact of a tooth that
 /// enters within a step is known to that step.
 ///
-/// SimulatedCut::removed_m2 is ∫ [R h − h²/2 + (C'·t) h] dφ over a turn, which is exact for any h: where the radial
-/// depth is a and nothing vibrates it is a v_f times the turn, less the cusps, and a number of steps that breaks this
-/// is too small.
+/// SimulatedCut::removed_m2 is ∫ [R h − h²/2 + (C'·t) h] dφ over a turn, which is exact for any h. It is held against
+/// the area by which the material becomes less (cleared_area.hpp); a number of steps that breaks this is too small.
 ///
 /// `stock` bounds the material; the arcs of `process` only say where samples once a tooth are taken. Sides of cylinders
 /// only. `structure` in part axes. Throws InputError for a bad process, law, option, speed, depth or feed (≤ 0), or

@@ -49,8 +49,9 @@ MotionKind motion_kind(const Eigen::MatrixXd& samples, double size, double toler
   return kind;
 }
 
-MotionKind kind_beside_decay(const MotionKind& kind) {
-  constexpr double smaller = 0.95;
+MotionKind kind_beside_decay(const MotionKind& kind, double expected_trend) {
+  constexpr double lasting = 0.95;  // trends of chatter that lasts are within 5 % of 1 but for rare ones
+  const double smaller = std::min(lasting, 0.5 * (1.0 + expected_trend));
   const bool without_period = kind.motion == Motion::quasi_periodic || kind.motion == Motion::growing;
   if (!without_period || !(kind.trend < smaller)) return kind;
   MotionKind settling = kind;

@@ -34,8 +34,10 @@ struct MotionKind {
 /// half of it. At least 2 samples. Cost O(24 samples).
 [[nodiscard]] MotionKind motion_kind(const Eigen::MatrixXd& samples, double size, double tolerance = 1e-4);
 
-/// The kind where small vibrations are known to decay: a motion without a period whose changes become smaller, trend
-/// below 0.95, is `settling`; one whose changes stay is chatter that exists beside the stable motion.
-[[nodiscard]] MotionKind kind_beside_decay(const MotionKind& kind);
+/// The kind where small vibrations are known to decay. From the second quarter of n periods to the last, a small one
+/// becomes smaller by |μ|^(n/2), the `expected_trend`, and one that lasts by nothing. A motion without a period whose
+/// trend lies nearer to the former, and below 0.95, is `settling`; else it may be chatter that exists beside the stable
+/// motion (docs/theory/time-domain.md, section The kind of a motion).
+[[nodiscard]] MotionKind kind_beside_decay(const MotionKind& kind, double expected_trend);
 
 }  // namespace thinwall::milling

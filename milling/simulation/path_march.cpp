@@ -8,8 +8,18 @@
 
 namespace thinwall::milling {
 
+int whole_steps(const MillingProcess& process, int steps_a_turn) {
+  const int teeth = equal_surfaces(process) ? process.cutter.teeth : 1;
+  return (steps_a_turn + teeth - 1) / teeth * teeth;
+}
+
 PathCut path_cut(const MillingProcess& process, const SimulatedPoint& point, const SimulationOptions& options,
                  int steps_a_turn, int earlier_passes) {
+  if (!process.further_engagements.empty())
+    throw core::InputError(
+        "simulation: exact paths and regions know one arc of the cut, for another one would need a stock of its own; "
+        "take circular paths for several");
+  steps_a_turn = whole_steps(process, steps_a_turn);
   constexpr double turn_rad = 2.0 * std::numbers::pi, least_steps = 6.0;
   const double steps_in_cut = process.engagement.arc_rad() / turn_rad * steps_a_turn;
   if (steps_in_cut < least_steps) {
@@ -28,7 +38,7 @@ PathCut path_cut(const MillingProcess& process, const SimulatedPoint& point, con
   cut.width_m = width_of_cut(cut.discs, process.cutter);
   cut.radius_m = 0.5 * process.cutter.diameter_m;
   cut.tips = tips_of_turn(process);
-  cut.alike = equal_surfaces(process) && steps_a_turn % process.cutter.teeth == 0;
+  cut.alike = equal_surfaces(process);
   return cut;
 }
 

@@ -58,8 +58,12 @@ struct PathCut {
   std::optional<OneSidedContact> contact;
 };
 
+/// The steps of a turn, raised to a multiple of the teeth where these leave one surface: then they meet nodes at the
+/// same angles, and a motion that changes from tooth to tooth is no motion of the steps.
+[[nodiscard]] int whole_steps(const MillingProcess& process, int steps_a_turn);
+
 /// `structure` in part axes; at rest under `first_force_n` (tool axes). Throws as tooth_discs(), and for a structure
-/// that does not move in the plane of the cut.
+/// that does not move in the plane of the cut, or a process of several arcs. Steps are those of whole_steps().
 [[nodiscard]] PathCut path_cut(const RelativeStructure& structure, const MillingProcess& process,
                                const SimulatedPoint& point, const SimulationOptions& options, int steps_a_turn,
                                int earlier_passes, const std::optional<OneSidedContact>& contact = {});
@@ -73,6 +77,9 @@ struct PathCut {
 ///     double chip(const ToothDisc&, DiscRay&, double node, centre)   m; ≤ 0 without contact; sets `found` and
 ///                                                                    `in_cut` of the ray
 ///     void leave(const PathStep&)                                    removes what the teeth of a step have swept
+///     optional<double> cleared_m2()                                  the area that was removed so far, mean over
+///     depth,
+///                                                                    up to a constant; none where it is not known
 ///
 /// and `Tool` what ModalTool has (modal_tool.hpp).
 template <class Tool, class Material, class ChipForce>
@@ -115,6 +122,9 @@ class PathMotion {
 
   /// Nodes of the last period at which the surface before a tooth was not known.
   [[nodiscard]] long surfaces_lost() const { return surfaces_lost_; }
+
+  /// The area that the teeth have cleared by geometry, up to a constant.
+  [[nodiscard]] std::optional<double> cleared_m2() const { return material_.cleared_m2(); }
 
   /// False once the vibration has outgrown the radius.
   [[nodiscard]] bool within(double radius_m) const { return tool_.within(radius_m); }

@@ -25,6 +25,8 @@ class Record {
   void begin_period(double time_s, double traced_rad);
   /// Takes a step in. No allocation but of the passes that are kept.
   void operator()(const MarchStep& step);
+  /// The area that chips have taken in the recorded steps so far, m², mean over depth; of exact paths.
+  [[nodiscard]] double removed_m2() const { return removed_; }
   /// Means over the recorded rotation, the passes, and the kind of the motion.
   void finish(double recorded_rad);
 

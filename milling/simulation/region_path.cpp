@@ -62,6 +62,9 @@ class Slices {
     for (PartRegion& slice : slices_) slice.erase(outline);
   }
 
+  /// The area that was taken away, up to a constant.
+  [[nodiscard]] std::optional<double> cleared_m2() const { return -mean_area_m2(); }
+
   [[nodiscard]] double mean_area_m2() const {
     double sum = 0.0;
     for (const ToothDisc& disc : cut_.discs) {
@@ -169,7 +172,7 @@ RegionCut simulate_region(const RelativeStructure& structure, const MillingProce
                           const TurnObserver& after_turn) {
   require_usable(process, law, point, options);
   require_valid(validate(PathOptions{region.steps_a_turn, 1}));
-  require_whole_steps(options, region.steps_a_turn);
+  require_whole_steps(options, whole_steps(process, region.steps_a_turn));
   const PathCut cut = path_cut(structure, process, point, options, region.steps_a_turn, 1, region.contact);
   const double cell = region.cell_m > 0.0 ? region.cell_m : cut.radius_m / 20.0;
   Slices slices(part, cell, cut, region.edge);

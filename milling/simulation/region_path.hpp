@@ -17,7 +17,7 @@ enum class SweptEdge {
 
 /// The fineness of a part as a region.
 struct RegionOptions {
-  int steps_a_turn = 720;  ///< ≥ 24
+  int steps_a_turn = 720;  ///< ≥ 24; raised to a multiple of equal teeth
   SweptEdge edge = SweptEdge::arcs;
   double cell_m = 0.0;                          ///< of PartRegion; 0: a twentieth of the cutter's radius
   std::optional<OneSidedContact> contact = {};  ///< of a support, that may open

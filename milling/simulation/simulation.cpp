@@ -52,6 +52,9 @@ class CircularMotion {
   /// A surface is kept however old it is.
   [[nodiscard]] static long surfaces_lost() { return 0; }
 
+  /// Circles clear what their chips are, by the very surface that is handed on.
+  [[nodiscard]] static std::optional<double> cleared_m2() { return {}; }
+
   /// Modes are scaled to their displacement at the cut. The largest of numbers some of which are NaN is any of them.
   [[nodiscard]] bool within(double radius_m) const {
     return state_.modes.allFinite() && state_.modes.cwiseAbs().maxCoeff() < radius_m;
@@ -66,7 +69,7 @@ class CircularMotion {
 }  // namespace
 
 std::string name(SimulationStatus status) {
-  constexpr std::array<const char*, 4> names{"completed", "overflowed", "unsettled", "surface_lost"};
+  constexpr std::array<const char*, 5> names{"completed", "overflowed", "unsettled", "surface_lost", "too_coarse"};
   return names[static_cast<std::size_t>(status)];
 }
 

@@ -58,6 +58,7 @@ enum class SimulationStatus {
   surface_lost,  ///< on exact paths, the vibration was as fast as the teeth cut or reached back to the earliest pass
                  ///< that is remembered, so that the surface before a tooth was not known at more than one node in a
                  ///< hundred
+  too_coarse,    ///< the area of the chips is 1 % or more off that by which the material became less: too few steps
 };
 
 /// True where the figures of a simulation are none.
@@ -110,6 +111,8 @@ struct SimulatedCut {
   double peak_torque_n_m = 0.0;                                   ///< that the spindle gives
   double thickest_chip_m = 0.0;
   double removed_m2 = 0.0;  ///< area in the plane of the cut that a turn removes, mean over depth; of exact paths
+  std::optional<double> removal_error;  ///< area of the recorded chips over that by which the material became less,
+                                        ///< less one; of exact paths and regions
   Eigen::Vector3d mean_force_n = Eigen::Vector3d::Zero();  ///< over time
   double mean_torque_n_m = 0.0;
   double mean_power_w = 0.0;              ///< mean torque times Ω

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "milling/simulation/record.hpp"
+#include "milling/simulation/removal_check.hpp"
 #include "milling/simulation/simulation.hpp"
 #include "milling/simulation/wall.hpp"
 
@@ -28,6 +30,7 @@ struct Periods {
 ///     long over_period(see)             marches a period, calls `see` with every MarchStep unless it is Unseen, and
 ///                                       returns the number of nodes whose forces did not settle;
 ///     long surfaces_lost()              nodes of the last period at which the surface before a tooth was not known;
+///     optional<double> cleared_m2()     area by which the material became less, up to a constant, if it is known;
 ///     bool within(double radius_m)      false once the vibration has outgrown it or a number is not finite.
 ///
 /// `feed_m_per_rad`: v_f/Ω. Ends after the turn in which the vibration outgrows the radius of the cutter.
@@ -48,6 +51,9 @@ SimulatedCut over_turns(Marched& motion, const MillingProcess& process, double f
   const int settling = options.settling_turns * of.a_turn;
   const int untraced = (turns - options.traced_turns) * of.a_turn;
   const int unwalled = (turns - options.wall.turns) * of.a_turn;
+  const double feed_a_turn_m = 2.0 * std::numbers::pi * feed_m_per_rad;
+  RemovalCheck removal(options.recorded_turns, 0.1 * process.cutter.diameter_m * feed_a_turn_m);
+  if (options.settling_turns == 0) removal.look(0.0, motion.cleared_m2(), 0.0);
   const Unseen unseen;
   long unsettled = 0, lost = 0, lost_recorded = 0;
   int period = 0;
@@ -59,6 +65,8 @@ SimulatedCut over_turns(Marched& motion, const MillingProcess& process, double f
       if (period >= settling) lost_recorded += motion.surfaces_lost();
     }
     result.simulated_s = period * period_s;
+    if (removal.is_due(turn + 1 - options.settling_turns))
+      removal.look(record.removed_m2(), motion.cleared_m2(), result.simulated_s);
     if (!motion.within(0.5 * process.cutter.diameter_m))
       result.status = lost > 0 ? SimulationStatus::surface_lost : SimulationStatus::overflowed;
     lost += motion.surfaces_lost();  // an overflow is of the surfaces that were lost before its turn
@@ -68,6 +76,11 @@ SimulatedCut over_turns(Marched& motion, const MillingProcess& process, double f
     result.status = SimulationStatus::unsettled;
   if (lost_recorded > 0 && 100 * lost_recorded > static_cast<long>(period - settling) * of.nodes)
     result.status = SimulationStatus::surface_lost;
+  result.removal_error = removal.error();
+  if (removal.broken_s() && result.status == SimulationStatus::completed) {
+    result.status = SimulationStatus::too_coarse;
+    result.simulated_s = *removal.broken_s();
+  }
   result.trace.start_s = untraced * period_s;
   result.walls = wall.walls();
   record.finish(std::max(1, period - settling) * of.period_rad);

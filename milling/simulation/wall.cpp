@@ -18,15 +18,6 @@ constexpr double reach_rad = 0.3;
 constexpr int samples_a_pass = 161;
 constexpr int points_a_feed = 200;
 
-/// Rotation from the entry of a tip to the wall of a side, or below 0 if the arc does not hold it.
-double rotation_to_wall(const TipPass& tip, int side) {
-  constexpr double round_off_rad = 1e-9;
-  const double wall = side > 0 ? 0.0 : std::numbers::pi;
-  double s = std::fmod(wall - tip.entry_phi_rad + 2.0 * turn_rad, turn_rad);
-  if (s > turn_rad - round_off_rad) s = 0.0;
-  return s <= tip.arc_rad + round_off_rad ? s : -1.0;
-}
-
 /// The rotation in its period; a hair before the end, where by round-off no step may reach, it is the start of the
 /// next.
 double within_period(double rotation_rad, double period_rad) {
@@ -109,6 +100,15 @@ Eigen::Index left_by_filter(const Wall& wall, double cutoff_m) {
 
 }  // namespace
 
+std::optional<double> rotation_to_wall(const Engagement& arc, int side) {
+  constexpr double round_off_rad = 1e-9;
+  const double wall = side > 0 ? 0.0 : std::numbers::pi;
+  double s = std::fmod(wall - arc.entry_rad + 2.0 * turn_rad, turn_rad);
+  if (s > turn_rad - round_off_rad) s = 0.0;
+  if (s > arc.arc_rad() + round_off_rad) return {};
+  return s;
+}
+
 double recorded_length_m(const WallOptions& options, double feed_a_turn_m) {
   constexpr int lost_turns = 4;  // at the ends, and of what vibration shifts
   return std::max(0, options.turns - lost_turns) * feed_a_turn_m;
@@ -136,10 +136,10 @@ WallRecorder::WallRecorder(const MillingProcess& process, double feed_m_per_rad,
   for (const TipPass& tip : tips) {
     const double runout = cutter.runout_m.empty() ? 0.0 : cutter.runout_m[static_cast<std::size_t>(tip.tooth)];
     for (const int side : {1, -1}) {
-      const double to_wall = rotation_to_wall(tip, side);
-      if (to_wall < 0.0) continue;
+      const auto to_wall = rotation_to_wall({tip.entry_phi_rad, tip.entry_phi_rad + tip.arc_rad}, side);
+      if (!to_wall) continue;
       for (std::size_t h = 0; h < options.heights_m.size(); ++h) {
-        const double at = tip.entry_rad + to_wall + options.heights_m[h] * cutter.lag_rad_per_m(tip.tooth);
+        const double at = tip.entry_rad + *to_wall + options.heights_m[h] * cutter.lag_rad_per_m(tip.tooth);
         for (int i = 0; i < samples_a_pass; ++i) {
           const double rotation = at + offset_rad_[static_cast<std::size_t>(i)];
           samples_.push_back({within_period(rotation, period_rad), static_cast<int>(open_.size()), i});

@@ -2,6 +2,7 @@
 // The wall that the teeth of a simulated cut leave: its place and its roughness.
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "milling/cut/process.hpp"
@@ -16,6 +17,10 @@ struct WallOptions {
   std::vector<double> heights_m = {0.0};  ///< from the tip up, within the depth
   double cutoff_m = 0.0;                  ///< of filtered(); 0: none
 };
+
+/// The rotation of a tooth from its entry into an arc up to where it points along the normal of the wall on a side, +1:
+/// φ = 0, −1: φ = π; none where it leaves the arc before.
+[[nodiscard]] std::optional<double> rotation_to_wall(const Engagement& arc, int side);
 
 /// The least length of the walls that these turns leave, m, whose ends are not known; a filter needs twice its cutoff.
 [[nodiscard]] double recorded_length_m(const WallOptions& options, double feed_a_turn_m);

@@ -39,6 +39,11 @@ std::string outcome(const SimulatedPointSummary& p) {
         "after {:.3g} s the vibration is too fast or too large for exact paths, take simulation.paths = \"region\"",
         p.simulated_s);
   const std::string text = p.approach.empty() ? "vibration " + motion_in_words(p) : "the tool enters at a border";
+  if (p.status == "too_coarse")
+    return text + fmt::format(
+                      "; steps are too few, from {:.3g} s on the area of the chips is {:+.2g} % off that which "
+                      "the part loses: take more by simulation.steps_a_turn, and trust no figure",
+                      p.simulated_s, 100.0 * p.removal_error_relative.value_or(NAN));
   return p.status == "unsettled" ? text +
                                        "; forces within steps did not settle: take more steps, or more modes by "
                                        "lobes.modes_up_to, and trust no figure"
@@ -114,17 +119,6 @@ std::string contact_text(const OpeningContactSummary& contact) {
                      100.0 * contact.open_share, length(contact.widest_m), contact.largest_n);
 }
 
-/// The area that the teeth remove, where it is not that of the cut.
-std::string removal_text(double error) {
-  constexpr double worth_telling = 0.01;
-  if (std::abs(error) < worth_telling) return "";
-  return fmt::format(
-      "  removal    {:+.2g} % off the area between the walls: take more steps a turn, or record more turns of a "
-      "vibration "
-      "that does not repeat itself\n",
-      100.0 * error);
-}
-
 std::string lag_text(const std::vector<double>& lag_m) {
   return fmt::format("  arm        {} along the feed and {} across before the cut, beside the place it is told\n",
                      length(lag_m[0]), length(lag_m[1]));
@@ -140,9 +134,8 @@ std::string text_of(const SimulatedPointSummary& p) {
                       length(p.peak_to_peak_m->y()));
   text += fmt::format("  force      peak {:.4g} N, torque {:.4g} N m, power {:.4g} W on the mean\n",
                       p.peak_force_n.value_or(NAN), p.peak_torque_n_m.value_or(NAN), p.mean_power_w.value_or(NAN));
-  text += fmt::format("  contact    lost in {:.2g} % of the cut, thickest chip {}\n",
+  text += fmt::format("  contact    lost in {:.3g} % of the cut, thickest chip {}\n",
                       100.0 * p.share_without_contact.value_or(NAN), length(p.thickest_chip_m.value_or(NAN)));
-  if (p.removal_error_relative) text += removal_text(*p.removal_error_relative);
   if (p.lag_m.size() == 3) text += lag_text(p.lag_m);
   if (p.opening_contact) text += contact_text(*p.opening_contact);
   for (const ApproachSummary& approach : p.approach) {

@@ -90,7 +90,7 @@ SimulatedPointSummary point_of(const PointSimulation& p, std::size_t index) {
         {axis == 0 ? "feed" : "normal", a.final_m, a.overshoot, a.peak_s, a.settling_2_s, a.settling_5_s});
   }
   summary.lag_m = p.lag_m;
-  summary.removal_error_relative = p.removal_error;
+  summary.removal_error_relative = p.cut.removal_error;
   if (p.forced) summary.forced_vibration = {p.forced->peak_to_peak_m, p.forced->difference, p.forced->left};
   return summary;
 }

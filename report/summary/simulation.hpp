@@ -97,8 +97,8 @@ template <class Visitor, Either<ForcedAgreementSummary> Section>
 void fields(Visitor& visit, Section& forced) {
   visit(Field{"peak_to_peak_m", Kind::length, "in closed form, along feed, normal and axis"}, forced.peak_to_peak_m);
   visit(Field{"difference_relative", Kind::residual,
-              "largest difference of peak to peak values and, of straight teeth, places of entry, over the largest "
-              "peak to peak, and of the mean force over the peak force"},
+              "largest difference of the mean force over the peak force, and of the places where straight teeth enter "
+              "and leave, else of the peak to peak values, over the largest peak to peak"},
         forced.difference_relative);
   visit(Field{"left_of_beginning", Kind::residual,
               "|mu| to the power of the periods before the record: by so much the simulated motion may not be settled"},
@@ -173,8 +173,9 @@ void fields(Visitor& visit, Section& point) {
   visit(
       Field{"status", Kind::text,
             "\"completed\", \"overflowed\" (the vibration outgrew the cutter, at simulated_s), \"surface_lost\" (it "
-            "was too fast or too large for exact paths, from simulated_s on) or \"unsettled\" (forces within steps did "
-            "not settle: not to be trusted)"},
+            "was too fast or too large for exact paths, from simulated_s on), \"too_coarse\" (the area of the "
+            "chips was 1 % or more off that which the part lost, at simulated_s for the first time: too few steps) or "
+            "\"unsettled\" (forces within steps did not settle: not to be trusted)"},
       point.status);
   visit(Field{"motion", Kind::text,
               "\"periodic\", \"period_n\", \"quasi_periodic\", \"growing\" or \"settling\": it has no period yet"},
@@ -216,8 +217,8 @@ void fields(Visitor& visit, Section& point) {
               Presence::if_any},
         point.lag_m);
   visit(Field{"removal_error_relative", Kind::residual,
-              "area that the teeth remove over that between the walls they leave, less one, of paths that are not "
-              "circles; absent where no wall is known"},
+              "area of the recorded chips over that which the part lost by geometry, less one, of paths that are not "
+              "circles; absent where vibration reaches back to walls that are counted already"},
         point.removal_error_relative);
   visit(Field{"opening_contact", Kind::section, "contact of a support that may open"}, point.opening_contact);
 }

@@ -143,20 +143,32 @@ void approach(const Simulated& cut, PointSimulation& p) {
   for (const int axis : {0, 1}) p.approach.push_back(milling::approach_of(p.cut.means_m.row(axis), period_s));
 }
 
-/// True if all heights of a tooth enter at once, into one arc: the moment from which the closed form counts.
+/// True if all heights of a tooth enter at once, into one arc, so that a step begins there and one ends at the exit.
 bool one_entry(const milling::MillingProcess& process) {
   const bool straight = std::ranges::all_of(process.cutter.helices_rad, [](double helix) { return helix == 0.0; });
   return straight && process.cutter.envelope.straight() && process.further_engagements.empty();
 }
 
-/// The largest difference of the figures that a simulation has of a periodic motion.
-double difference_of(const milling::SimulatedCut& cut, const milling::ForcedVibration& forced, bool one_entry) {
+/// The place in closed form where a tooth leaves the cut; before the force ends, of which a residual may be left.
+Eigen::Vector3d exit_of(const milling::ForcedVibration& forced, const milling::MillingProcess& process) {
+  const double rotation = std::fmod(process.engagement.arc_rad(), process.cutter.pitch_rad());
+  Eigen::Index nearest = 0;
+  (forced.rotation_rad.array() - rotation).abs().minCoeff(&nearest);
+  if (nearest > 0 && forced.rotation_rad(nearest) - forced.rotation_rad(nearest - 1) < 1e-9) --nearest;
+  return forced.displacement_m.col(nearest);
+}
+
+/// The largest difference of the figures that a simulation has of a periodic motion. Where steps end at entry and exit
+/// the places there are those of the march; peaks lie within steps, and are those of parabolas.
+double difference_of(const milling::SimulatedCut& cut, const milling::ForcedVibration& forced,
+                     const milling::MillingProcess& process) {
   const double size = forced.peak_to_peak_m.maxCoeff();
-  double difference = (cut.displacement_m.range() - forced.peak_to_peak_m).cwiseAbs().maxCoeff() / size;
-  difference = std::max(difference, (cut.mean_force_n - forced.mean_force_n).norm() / forced.peak_force_n);
-  if (one_entry && !cut.passes.empty())
-    difference = std::max(difference, (cut.passes.back().entry_m - forced.displacement_m.col(0)).norm() / size);
-  return difference;
+  const double force = (cut.mean_force_n - forced.mean_force_n).norm() / forced.peak_force_n;
+  if (!one_entry(process) || cut.passes.empty())
+    return std::max(force, (cut.displacement_m.range() - forced.peak_to_peak_m).cwiseAbs().maxCoeff() / size);
+  const milling::ToothPass& last = cut.passes.back();
+  return std::max({force, (last.entry_m - forced.displacement_m.col(0)).norm() / size,
+                   (last.exit_m - exit_of(forced, process)).norm() / size});
 }
 
 /// The closed form beside a simulated motion; none where it does not hold: at an unstable point, of teeth that differ,
@@ -171,7 +183,7 @@ std::optional<ForcedAgreement> agreement(const Simulated& cut, const milling::Re
     const milling::ForcedVibration forced =
         milling::forced_vibration(structure, cut.process, p.point.spindle_speed_rpm, p.point.depth_m,
                                   p.feed_per_tooth_m, {.error_tolerance = 1e-10});
-    return ForcedAgreement{forced.peak_to_peak_m, difference_of(p.cut, forced, one_entry(cut.process)),
+    return ForcedAgreement{forced.peak_to_peak_m, difference_of(p.cut, forced, cut.process),
                            std::pow(p.lobes.modulus, static_cast<double>(cut.options.settling_turns) * p.teeth)};
   } catch (const core::InputError& error) {
     core::warn(fmt::format("no closed form beside a simulation: {}", error.what()));
@@ -181,24 +193,10 @@ std::optional<ForcedAgreement> agreement(const Simulated& cut, const milling::Re
   return {};
 }
 
-/// The area that the teeth remove, over that between the walls that they leave, less one. None on circles, from a
-/// border, and of motions without a wall.
-std::optional<double> removal_error(const Simulated& cut, const PointSimulation& p) {
-  const bool steady = cut.setup.simulation->start != setup::CutStart::border;
-  const bool walled = !p.cut.walls.empty() && !cut.setup.simulation->wall_cutoff_m;
-  if (cut.circular() || !steady || !walled || p.cut.status != milling::SimulationStatus::completed) return {};
-  double width_m = *cut.setup.cutting->radial_depth;
-  for (const milling::Wall& wall : p.cut.walls) {
-    if (wall.height_m == p.cut.walls.front().height_m) width_m += wall.mean_m;
-  }
-  return p.cut.removed_m2 / (width_m * p.feed_per_tooth_m * p.teeth) - 1.0;
-}
-
 /// Warns of a wall that was asked for and could not be measured.
 void warn_of_lost_wall(const Simulated& cut, const PointSimulation& p) {
-  constexpr double hair = 1e-9;
   const bool reached = std::ranges::any_of(milling::arcs(cut.process), [](const milling::Engagement& arc) {
-    return arc.entry_rad < hair || arc.exit_rad > std::numbers::pi - hair;
+    return milling::rotation_to_wall(arc, 1) || milling::rotation_to_wall(arc, -1);
   });
   if (!reached || cut.options.wall.turns == 0 || !p.cut.walls.empty()) return;
   if (p.cut.status != milling::SimulationStatus::completed) return;
@@ -242,16 +240,68 @@ void grow(const Simulated& cut, const milling::RelativeStructure& structure, Poi
   p.lobes = milling::multiplier_at(structure, cut.process, rpm, p.point.depth_m, options);
 }
 
+/// |μ| to the power of half of the periods of which there are samples: by so much a small vibration has become smaller
+/// from the second quarter of the record to the last.
+double expected_trend(const Simulated& cut, const PointSimulation& p) {
+  const int samples_a_turn = p.alike ? p.teeth : 1;
+  const int turns = std::min(cut.options.recorded_turns, cut.options.kept_passes / samples_a_turn);
+  const int periods_a_turn = cut.process.cutter.equal_teeth() ? p.teeth : 1;
+  return std::pow(p.lobes.modulus, 0.5 * turns * periods_a_turn);
+}
+
+/// The range of the places at which a tooth enters in the last half of the record, over the peak to peak of the motion.
+double spread_of_entries(const milling::SimulatedCut& cut) {
+  milling::Extremes entries;
+  for (std::size_t i = cut.passes.size() / 2; i < cut.passes.size(); ++i) {
+    if (cut.passes[i].tooth != cut.passes.back().tooth) continue;
+    entries.low = entries.low.cwiseMin(cut.passes[i].entry_m);
+    entries.high = entries.high.cwiseMax(cut.passes[i].entry_m);
+  }
+  return entries.range().maxCoeff() / cut.displacement_m.range().maxCoeff();
+}
+
+/// The kind of a motion where small vibrations decay. One that differs by less than a hundredth of its size from turn
+/// to turn has nothing but a small vibration left of its beginning: chatter that lasts beside it loses contact, or
+/// bends the force, and is no smaller than a chip.
+milling::MotionKind kind_beside_decay(const Simulated& cut, const PointSimulation& p) {
+  constexpr double small = 0.01;
+  milling::MotionKind kind = milling::kind_beside_decay(p.cut.motion, expected_trend(cut, p));
+  const bool without_period = kind.motion == milling::Motion::quasi_periodic || kind.motion == milling::Motion::growing;
+  if (without_period && spread_of_entries(p.cut) < small) kind.motion = milling::Motion::settling;
+  return kind;
+}
+
+/// Warns of teeth that never met the material while the cut was recorded.
+void warn_of_air(const PointSimulation& p) {
+  if (milling::ended_early(p.cut.status) || p.cut.thickest_chip_m > 0.0) return;
+  core::warn(
+      fmt::format("at {:.6g} rpm, {:.4g} mm no tooth meets the material in the turns that are recorded: record more "
+                  "(simulation.turns), or let the cut begin nearer to it",
+                  p.point.spindle_speed_rpm, 1e3 * p.point.depth_m));
+}
+
 void simulate_point(const Simulated& cut, const FeltStructure& felt, const milling::TurnObserver& look,
                     PointSimulation& p) {
   if (cut.setup.simulation->robot == setup::CarrierMotion::multibody) march_arm(cut, look, p);
   else march(cut, felt, look, p);
   approach(cut, p);
   warn_of_lost_wall(cut, p);
-  p.removal_error = removal_error(cut, p);
+  warn_of_air(p);
   grow(cut, felt.structure, p);
-  if (p.lobes.modulus < 1.0) p.cut.motion = milling::kind_beside_decay(p.cut.motion);
+  if (p.lobes.modulus < 1.0) p.cut.motion = kind_beside_decay(cut, p);
   p.forced = agreement(cut, felt.structure, p);
+}
+
+/// Throws InputError for arcs that lie behind the tool, sin φ ≤ 0, where the feed makes no chip.
+void require_contact(const setup::Setup& setup) {
+  constexpr double pi = std::numbers::pi, hair = 1e-9;
+  for (const milling::Engagement& arc : setup::engagement_arcs(*setup.cutting, setup::cutter_of(*setup.tool))) {
+    const double entry = arc.entry_rad - 2.0 * pi * std::floor(arc.entry_rad / (2.0 * pi));
+    if (entry < pi - hair || entry + arc.arc_rad() > 2.0 * pi + hair) return;
+  }
+  throw core::InputError(
+      "cutting.entry_angle, cutting.exit_angle: the arc lies behind the tool, where no tooth touches the material; "
+      "give angles between 0 and 180 deg");
 }
 
 void require_no_fault(const std::string& fault) {
@@ -268,6 +318,7 @@ void require_simulation(const setup::Setup& setup, const std::vector<milling::Op
     throw core::InputError(
         "simulation: chips depend on the feed; give cutting.feed_per_tooth, or cutting.feed_rate and "
         "cutting.spindle_speed");
+  require_contact(setup);
   if (setup::known_by_lines(*setup.tool))
     throw core::InputError(
         "tool.measured: a simulation needs poles, and measured lines have none; give tool.fit = true, or tool.modes");

@@ -23,8 +23,8 @@ struct Results;
 /// one is from it.
 struct ForcedAgreement {
   Eigen::Vector3d peak_to_peak_m = Eigen::Vector3d::Zero();  ///< in closed form, tool axes
-  double difference = 0.0;  ///< the largest of: peak to peak along an axis and the place at which straight teeth enter,
-                            ///< over the largest peak to peak; the mean force over the peak force
+  double difference = 0.0;  ///< the largest of: the mean force over the peak force; the places at which straight teeth
+                            ///< enter and leave, else the peak to peak along an axis, over the largest peak to peak
   double left = 0.0;  ///< |μ| to the power of the periods before the record: of the beginning, what is left in it
 };
 
@@ -41,9 +41,7 @@ struct PointSimulation {
   std::optional<ForcedAgreement> forced;    ///< of a stable point, equal teeth, circular paths and the linear law
   std::vector<milling::Approach> approach;  ///< along feed and normal, of a cut that began at a border
   std::vector<milling::PartSlice> part;     ///< what is left of a part that is kept as a region
-  std::optional<double> removal_error;  ///< area that teeth remove, over that between the walls they leave, less one:
-                                        ///< of paths that are not circles, from start to end in the material
-  std::vector<double> lag_m;            ///< of a multibody arm: displacement in tool axes before the cut, m
+  std::vector<double> lag_m;                ///< of a multibody arm: displacement in tool axes before the cut, m
 
   /// |μ| of the march over that of the lobes, less one: how far the two are apart.
   [[nodiscard]] double growth_difference() const { return growth.modulus / lobes.modulus - 1.0; }
@@ -51,8 +49,8 @@ struct PointSimulation {
 
 /// Throws InputError where [simulation] asks for what cannot be simulated, before anything is computed: without [tool],
 /// [cutting] or a feed, with measured lines in place of poles, structures, a contact that opens or an arm with a fault
-/// (setup/simulation_faults.hpp), exact paths without a radial depth, or without any point and a speed of the case's
-/// own. `asked`: points for a simulation that names none.
+/// (setup/simulation_faults.hpp), exact paths without a radial depth, arcs behind the tool alone, or without any point
+/// and a speed of the case's own. `asked`: points for a simulation that names none.
 void require_simulation(const setup::Setup& setup, const std::vector<milling::OperatingPoint>& asked);
 
 /// Simulates every point of setup.simulation on every structure; where it names none those that are `asked` for, else

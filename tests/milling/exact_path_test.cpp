@@ -106,6 +106,46 @@ TEST(ExactPath, RemovesTheAreaWithRunoutAndUnequalPitches) {
   EXPECT_NEAR(cut.removed_m2, 2e-4 * radial, 3e-4 * 2e-4 * radial);
 }
 
+/// The chips are what becomes free, whatever the motion: two without a period, of which a turn removes 2 % and 0.5 %
+/// more than the feed, a flip, a helix with runout and unequal pitches, and a tool that enters at a border.
+TEST(ExactPath, RemovesWhatBecomesFree) {
+  const auto error = [](const MillingProcess& process, double radial_m, double depth_m, double rpm,
+                        const std::vector<StockEdge>& more, int settling_turns) {
+    Stock stock = shoulder(process.cutter, radial_m, MillingDirection::down);
+    stock.insert(stock.end(), more.begin(), more.end());
+    const SimulatedCut cut = simulate_exact_path(modes_in_plane(922.0, 0.011, 0.03993), process, process.coefficients,
+                                                 {rpm, depth_m, 1e-4}, stock, turns(settling_turns, 30), {1440, 60});
+    EXPECT_EQ(cut.status, SimulationStatus::completed) << radial_m;
+    return cut.removal_error.value_or(NAN);
+  };
+  EXPECT_LT(std::abs(error(down_milling(0.01, 0.01), 0.01, 0.1e-3, 6000.0, {}, 30)), 2e-4);
+  EXPECT_LT(std::abs(error(down_milling(0.01, 4e-3), 4e-3, 0.2e-3, 6000.0, {}, 30)), 2e-4);
+  EXPECT_LT(std::abs(error(down_milling(0.01, 1e-3), 1e-3, 1e-3, 19000.0, {}, 30)), 5e-4);
+  MillingProcess uneven = down_milling(0.01, 4e-3);
+  uneven.cutter.runout_m = {10e-6, -10e-6};
+  uneven.cutter.pitches_rad = {170.0 * pi / 180.0, 190.0 * pi / 180.0};
+  uneven.cutter.helices_rad = {pi / 6.0, pi / 6.0};
+  EXPECT_LT(std::abs(error(uneven, 4e-3, 0.1e-3, 18700.0, {}, 30)), 5e-4);
+  EXPECT_LT(std::abs(error(down_milling(0.01, 4e-3), 4e-3, 0.2e-3, 6000.0, {border_ahead({2, 0.01}, 2e-3)}, 0)), 5e-4);
+}
+
+/// With 16 steps in the cut, a step in which a tooth enters is a tenth of a pass: 1.5 % of the area are missed. The
+/// time is that of the first look at both areas, after two of twenty turns of 10 ms.
+TEST(ExactPath, TellsWhenStepsMissAPartOfTheCut) {
+  const MillingProcess process = down_milling(0.01, 4e-3);
+  const auto with = [&](int steps_a_turn) {
+    return simulate_exact_path(stiff(), process, process.coefficients, {6000.0, 1e-3, 1e-4},
+                               shoulder(process.cutter, 4e-3, MillingDirection::down), turns(5, 20),
+                               {steps_a_turn, 60});
+  };
+  const SimulatedCut coarse = with(72);
+  EXPECT_EQ(coarse.status, SimulationStatus::too_coarse);
+  EXPECT_NEAR(coarse.simulated_s, 0.07, 1e-12);
+  EXPECT_NEAR(*coarse.removal_error, coarse.removed_m2 / (2e-4 * 4e-3) - 1.0, 1e-4);
+  EXPECT_GT(coarse.mean_power_w, 0.0);
+  EXPECT_EQ(with(720).status, SimulationStatus::completed);
+}
+
 /// A circle and a trochoid part as the cutter grows: by the first order in f/D.
 TEST(ExactPath, IsTheCircularOneOfALargeCutter) {
   double before = 0.0;
@@ -155,6 +195,9 @@ TEST(ExactPath, IsThatOfTheRegionHoweverFastTheVibration) {
   // Peaks of a motion that never repeats itself are those of its record.
   EXPECT_NEAR(exact.displacement_m.range().x(), region.displacement_m.range().x(),
               5e-3 * region.displacement_m.range().x());
+  // So large a vibration may reach back behind the line at which paths count the walls; a region counts all of it.
+  EXPECT_FALSE(exact.removal_error);
+  EXPECT_LT(std::abs(region.removal_error.value_or(NAN)), 1e-3);
 }
 
 /// A tool that vibrates faster than its teeth cut moves their tips backwards; two passes that are remembered do
@@ -184,6 +227,24 @@ TEST(ExactPath, RefusesWhatItCannotMarch) {
   MillingProcess ball = process;
   ball.cutter.envelope = ball_end(0.01);
   EXPECT_THROW((void)with(ball, {}, {}), core::InputError);
+  MillingProcess two_arcs = process;
+  two_arcs.further_engagements = {{0.0, 1.0}};
+  EXPECT_THROW((void)with(two_arcs, {}, {}), core::InputError);
+}
+
+/// Steps are raised to a multiple of equal teeth, so that the flip, of which every tooth is a sample, has its period;
+/// a number of steps that is none changes nothing else.
+TEST(ExactPath, NamesAFlipWhateverTheSteps) {
+  const MillingProcess process = down_milling(0.01, 0.5e-3);
+  const auto with = [&](int steps_a_turn) {
+    return simulate_exact_path(modes_in_plane(922.0, 0.011, 0.03993), process, process.coefficients,
+                               {19000.0, 2e-3, 1e-4}, shoulder(process.cutter, 0.5e-3, MillingDirection::down),
+                               turns(500, 100), {steps_a_turn, 10});
+  };
+  const SimulatedCut odd = with(719), even = with(720);
+  EXPECT_EQ(odd.motion.motion, Motion::period_n);
+  EXPECT_EQ(odd.motion.period, 2);
+  EXPECT_EQ(odd.displacement_m.high.x(), even.displacement_m.high.x());
 }
 
 /// Steps that do not divide into teeth would give means of unequal parts of a turn.
@@ -200,9 +261,13 @@ TEST(ExactPath, TakesMeansOverWholeSteps) {
   EXPECT_NO_THROW(require_whole_steps(options, 720));
   const RelativeStructure structure =
       relative_structure(testing::modal_model({{922.0, 0.011, 1.0, Eigen::Vector3d::UnitX()}}), "P");
-  EXPECT_THROW(
-      (void)simulate_exact_path(structure, process, process.coefficients, {6000.0, 1e-3, 1e-4}, {}, options, {722, 10}),
-      core::InputError);
+  const auto with = [&](int steps_a_turn) {
+    return simulate_exact_path(structure, process, process.coefficients, {6000.0, 1e-3, 1e-4}, {}, options,
+                               {steps_a_turn, 10});
+  };
+  EXPECT_EQ(with(722).means_m.cols(), 4) << "raised to 724";
+  process.cutter.runout_m = {1e-6, 0.0, 0.0, 0.0};  // teeth differ, and steps stay
+  EXPECT_THROW((void)with(722), core::InputError);
 }
 
 }  // namespace

@@ -63,6 +63,50 @@ TEST(Simulate, TellsTheMotionOnBothSidesOfTheBoundary) {
   EXPECT_TRUE(fs::exists(folder / "out/simulated/tool-2-passes.csv"));
 }
 
+/// A cut that is refused leaves no folder, and nothing in one that was empty; results that were there stay.
+TEST(Simulate, LeavesNothingWhereItIsRefused) {
+  const fs::path folder = scratch("simulate_refused");
+  const std::string without_feed = [] {
+    std::string text = tool_case;
+    const std::size_t at = text.find("feed_per_tooth");
+    return text.erase(at, text.find('\n', at) + 1 - at);
+  }();
+  const std::vector<std::string> at{"--at", "11000 rpm, 1 mm"};
+  EXPECT_EQ(simulate(folder, at, without_feed).code, 3);
+  EXPECT_FALSE(fs::exists(folder / "out"));
+  fs::create_directories(folder / "out");
+  EXPECT_EQ(simulate(folder, at, without_feed).code, 3);
+  EXPECT_TRUE(fs::is_empty(folder / "out"));
+  EXPECT_EQ(simulate(folder, {"--at", "11000 rpm, 1 mm", "--settle", "5", "--turns", "12"}).code, 0);
+  EXPECT_EQ(simulate(folder, at, without_feed).code, 3);
+  EXPECT_TRUE(fs::exists(folder / "out/simulated/tool-1.csv"));
+}
+
+/// An arc behind the tool is refused, for no tooth would touch.
+TEST(Simulate, TellsThatNoToothTouches) {
+  const fs::path folder = scratch("simulate_air");
+  std::string behind = tool_case;
+  const std::string radial = "radial_depth = \"0.5 mm\"\nmode = \"down\"";
+  behind.replace(behind.find(radial), radial.size(), "entry_angle = \"200 deg\"\nexit_angle = \"300 deg\"");
+  const auto [text, code] = simulate(folder, {"--at", "11000 rpm, 0.1 mm"}, behind);
+  EXPECT_EQ(code, 3);
+  EXPECT_NE(text.find("the arc lies behind the tool"), std::string::npos) << text;
+}
+
+/// What runout does to the chips is said once, though lobes and simulation both take the cut.
+TEST(Simulate, TellsOnceThatRunoutKeepsATooth) {
+  const fs::path folder = scratch("simulate_runout");
+  std::string text = tool_case;
+  text.insert(text.find("length = "), "runout = [\"0.1 mm\", \"-0.1 mm\"]\n");
+  std::ofstream(folder / "case.toml") << text;
+  const std::string log = (folder / "out/run.log").string();
+  EXPECT_EQ(simulate(folder, {"--at", "11000 rpm, 0.1 mm", "--settle", "5", "--turns", "12"}, text).code, 0);
+  const std::string said = core::read_file(log);
+  const std::size_t first = said.find("runout lets a tooth cut in");
+  ASSERT_NE(first, std::string::npos) << said;
+  EXPECT_EQ(said.find("runout lets a tooth cut in", first + 1), std::string::npos) << said;
+}
+
 /// A motion near the boundary takes long to settle; by how much it has not is told.
 TEST(Simulate, TellsHowFarAMotionHasNotSettled) {
   const fs::path folder = scratch("simulate_unsettled");

@@ -53,10 +53,10 @@ TEST(SimulationRun, TellsEveryPointAndThatMarchLobesAndClosedFormAgree) {
   EXPECT_LT(std::abs(flip["growth"]["difference_relative"].get<double>()), 1e-6);
   EXPECT_NEAR(stable["walls"][0]["location_error_m"].get<double>(), -6.5416e-6, 1e-9);
   EXPECT_NEAR(stable["walls"][0]["R_a_m"].get<double>(), 0.063e-6, 0.0002e-6);
-  EXPECT_LT(stable["forced_vibration"]["difference_relative"].get<double>(), 1e-5);
+  EXPECT_LT(stable["forced_vibration"]["difference_relative"].get<double>(), 1e-9);
   EXPECT_TRUE(flip["forced_vibration"].is_null()) << "the flip has no closed form";
   EXPECT_LT(simulation["growth_difference"]["max_relative"].get<double>(), 1e-6);
-  EXPECT_LT(simulation["forced_difference"]["max_relative"].get<double>(), 1e-5);
+  EXPECT_LT(simulation["forced_difference"]["max_relative"].get<double>(), 1e-9);
   EXPECT_EQ(simulation["forced_difference"]["spindle_speed_rpm"], 11000.0);
 }
 
@@ -236,16 +236,20 @@ TEST(SimulationRun, TellsThatABoundaryIsNotKnownAndStepsAreTooFew) {
 
 /// Seven steps while a tooth of exact paths is in the cut miss a part of its chips.
 TEST(SimulationRun, TellsThatTooFewStepsMissAPartOfTheCut) {
-  const auto error = [](const std::string& steps) {
+  const auto point = [](const std::string& steps) {
     const std::string text = benchmark_tool +
                              "[simulation]\nat = \"11000 rpm, 0.1 mm\"\npaths = \"exact\"\nsettling_turns = 60\n"
                              "turns = 8\nsteps_a_turn = " +
                              steps + "\n";
-    return std::abs(
-        run(text, scratch("simulation_removal"))["simulation"]["points"][0]["removal_error_relative"].get<double>());
+    const RunResult result = run_case(parse_case(text, "."), {scratch("simulation_removal"), true, -1, false});
+    const std::string told = report::terminal_report(result.summary, "there");
+    EXPECT_EQ(told.find("steps are too few, from") != std::string::npos, steps == "90") << told;
+    return summary_json(result.summary)["simulation"]["points"][0];
   };
-  EXPECT_LT(error("2880"), 1e-3);
-  EXPECT_GT(error("90"), 1e-2);
+  EXPECT_EQ(point("2880")["status"], "completed");
+  EXPECT_LT(std::abs(point("2880")["removal_error_relative"].get<double>()), 1e-3);
+  EXPECT_EQ(point("90")["status"], "too_coarse");
+  EXPECT_LT(point("90")["simulated_s"].get<double>(), 68.0 * 60.0 / 11000.0);
 }
 
 }  // namespace

@@ -63,7 +63,8 @@ bool all_rows() {
 }
 
 /// 960 steps a turn outside this project: finals to 1e-5 of it, overshoots to half a point (x of case C 1.5), times to
-/// 1 %, or to where the motion touches the band once more.
+/// 1 %, or to where the motion touches the band once more. Here overshoots are met to 0.8 % of their
+/// value, finals to 6e-5 and times to 0.4 %.
 TEST(Bondarenko2012, TableOneIsThatOfAnotherProgram) {
   const std::vector<RowB> rows{
       {50000, 100, -0.789051, 53.8547, 1.4432, 1.04212},      {300000, 100, -0.131508, 29.1972, 0.7628, 0.536726},
@@ -74,10 +75,10 @@ TEST(Bondarenko2012, TableOneIsThatOfAnotherProgram) {
     if (!all_rows() && row.K != 1e6) continue;
     const SimulatedCut cut = enter(tip(row.K, row.M, 1), simulated_s(row.K), 960);
     const Approach x = approach_of(cut.means_m.row(0), tooth_period_s);
-    EXPECT_NEAR(1e3 * x.final_m, row.x_mm, 1e-3 * -row.x_mm) << row.K;
-    EXPECT_NEAR(100.0 * x.overshoot, row.overshoot, 0.5) << row.K;
-    EXPECT_NEAR(x.settling_2_s.value_or(NAN), row.settling_2_s, 0.03 * row.settling_2_s) << row.K;
-    EXPECT_NEAR(x.settling_5_s.value_or(NAN), row.settling_5_s, 0.03 * row.settling_5_s) << row.K;
+    EXPECT_NEAR(1e3 * x.final_m, row.x_mm, 1e-4 * -row.x_mm) << row.K;
+    EXPECT_NEAR(100.0 * x.overshoot, row.overshoot, 0.01 * row.overshoot) << row.K;
+    EXPECT_NEAR(x.settling_2_s.value_or(NAN), row.settling_2_s, 0.01 * row.settling_2_s) << row.K;
+    EXPECT_NEAR(x.settling_5_s.value_or(NAN), row.settling_5_s, 0.01 * row.settling_5_s) << row.K;
   }
 }
 
@@ -94,12 +95,12 @@ TEST(Bondarenko2012, TableTwoIsThatOfAnotherProgram) {
     const SimulatedCut cut = enter(tip(row.K, row.M, 2), simulated_s(row.K), 960);
     const Approach x = approach_of(cut.means_m.row(0), tooth_period_s),
                    y = approach_of(cut.means_m.row(1), tooth_period_s);
-    EXPECT_NEAR(1e3 * x.final_m, row.x_mm, 1e-3 * -row.x_mm) << row.K;
-    EXPECT_NEAR(1e3 * y.final_m, row.y_mm, 1e-3 * row.y_mm) << row.K;
-    EXPECT_NEAR(100.0 * x.overshoot, row.overshoot_x, 1.5) << row.K;
-    EXPECT_NEAR(100.0 * y.overshoot, row.overshoot_y, 0.5) << row.K;
-    EXPECT_NEAR(x.settling_2_s.value_or(NAN), row.settling_x_s, 0.03 * row.settling_x_s) << row.K;
-    EXPECT_NEAR(y.settling_2_s.value_or(NAN), row.settling_y_s, 0.03 * row.settling_y_s) << row.K;
+    EXPECT_NEAR(1e3 * x.final_m, row.x_mm, 1e-4 * -row.x_mm) << row.K;
+    EXPECT_NEAR(1e3 * y.final_m, row.y_mm, 1e-4 * row.y_mm) << row.K;
+    EXPECT_NEAR(100.0 * x.overshoot, row.overshoot_x, 0.01 * row.overshoot_x) << row.K;
+    EXPECT_NEAR(100.0 * y.overshoot, row.overshoot_y, 0.01 * row.overshoot_y) << row.K;
+    EXPECT_NEAR(x.settling_2_s.value_or(NAN), row.settling_x_s, 0.01 * row.settling_x_s) << row.K;
+    EXPECT_NEAR(y.settling_2_s.value_or(NAN), row.settling_y_s, 0.01 * row.settling_y_s) << row.K;
   }
 }
 
