@@ -115,9 +115,7 @@ struct Swap {
   coupling::HeldTool reference, target;
 };
 
-Swap swap_on(const setup::CutSetup& source, const dynamics::ResponseModel& measured) {
-  const setup::ToolSwap& swap = *source.tool->swap;
-  const Vector3d& axis = source.cutting->tool_axis;
+Swap swap_on(const setup::ToolSwap& swap, const Vector3d& axis, const dynamics::ResponseModel& measured) {
   const std::vector<Vector3d> directions = directions_of(measured, axis);
   const coupling::Contact held = joint(directions, axis);
   return {swap,
@@ -142,11 +140,10 @@ dynamics::ResponseModel with_reference(const setup::ToolSwap& swap) {
   return response_of(*swap.table, lines_of_modes(swap));
 }
 
-SwappedTip swapped(const Swap& swap, const dynamics::ResponseModel& measured) {
+SwappedResponse swapped(const Swap& swap, const dynamics::ResponseModel& measured) {
   const coupling::SwappedTool swapped =
       coupling::tool_swap(with_rotations(measured, swap.of, swap.directions, swap.axis), swap.reference, swap.target);
-  SwappedTip result;
-  result.status = swapped.status;
+  SwappedResponse result{{}, swapped.status, 0.0, 0.0};
   Eigen::Index worst = 0;
   result.worst_condition = swapped.holder.condition.maxCoeff(&worst);
   result.at_frequency_hz = measured.axis.hz(worst);
@@ -156,13 +153,23 @@ SwappedTip swapped(const Swap& swap, const dynamics::ResponseModel& measured) {
         " Hz the measured FRFs say nothing of the holder (they are those of the free tool, or not "
         "independent); leave out such lines");
   }
-  result.tip.frequency_hz = measured.axis.hz;
   const dynamics::ResponseModel tip = dynamics::between(swapped.coupled.response, swap.of.tip, swap.of.tip);
-  Eigen::Matrix3Xd D = dynamics::displacement_matrix(tip.responses, swap.of.tip);
-  for (auto d : D.colwise()) {
-    if (!(std::abs(d.dot(swap.axis)) < 1e-6)) d.setZero();  // along its axis nothing holds the tool here
+  dynamics::DofTable dofs;
+  Eigen::MatrixXd E(std::ssize(swap.directions), std::ssize(tip.responses));
+  for (const Vector3d& direction : swap.directions) {
+    dofs.push_back({swap.of.tip, direction, dynamics::DofKind::translation});
+    E.row(std::ssize(dofs) - 1) = dynamics::displacement_row(tip.responses, swap.of.tip, direction).transpose();
   }
-  for (const Eigen::MatrixXcd& H : tip.H) result.tip.H.emplace_back(D * H * D.transpose());
+  result.tip = {tip.axis, dofs, dofs, {}};
+  for (const Eigen::MatrixXcd& H : tip.H) result.tip.H.emplace_back(E * H * E.transpose());
+  return result;
+}
+
+/// The tip in space: along its axis nothing holds the tool here.
+SwappedTip in_space(const SwappedResponse& swapped) {
+  SwappedTip result{{swapped.tip.axis.hz, {}}, swapped.status, swapped.worst_condition, swapped.at_frequency_hz};
+  const Eigen::Matrix3Xd D = dynamics::displacement_matrix(swapped.tip.responses, swapped.tip.responses.front().point);
+  for (const Eigen::MatrixXcd& H : swapped.tip.H) result.tip.H.emplace_back(D * H * D.transpose());
   return result;
 }
 
@@ -183,17 +190,22 @@ dynamics::FrequencyAxis lines_of_modes(const setup::ToolSwap& swap) {
                                     static_cast<int>(std::clamp(2.0 * std::log(to / from) / damping, least, most)));
 }
 
+SwappedResponse swapped_response(const setup::ToolSwap& swap, const Vector3d& axis,
+                                 const dynamics::ResponseModel& measured) {
+  return swapped(swap_on(swap, axis, measured), measured);
+}
+
 SwappedTip swapped_tip(const setup::CutSetup& source) {
-  const dynamics::ResponseModel measured = with_reference(*source.tool->swap);
-  return swapped(swap_on(source, measured), measured);
+  const setup::ToolSwap& swap = *source.tool->swap;
+  return in_space(swapped_response(swap, source.cutting->tool_axis, with_reference(swap)));
 }
 
 std::vector<SwappedTip> swapped_tips(const setup::CutSetup& source, const std::vector<dynamics::ModalTable>& tables) {
   const dynamics::ResponseModel expected = with_reference(*source.tool->swap);
-  const Swap swap = swap_on(source, expected);
+  const Swap swap = swap_on(*source.tool->swap, source.cutting->tool_axis, expected);
   std::vector<SwappedTip> tips(tables.size());
   core::parallel_for(tables.size(),
-                     [&](std::size_t i) { tips[i] = swapped(swap, response_of(tables[i], expected.axis)); });
+                     [&](std::size_t i) { tips[i] = in_space(swapped(swap, response_of(tables[i], expected.axis))); });
   return tips;
 }
 

@@ -19,10 +19,24 @@ struct SwappedTip {
   double at_frequency_hz = 0.0;
 };
 
-/// Both tools as free beams (fem/beam.hpp), held alike: only tools differ. On the lines of the first file, or on
-/// lines_of_modes() where the swap has a table of modes in place of files. Throws InputError for a second point beyond
-/// the overhang, FRFs that are missing (named), a table that was not given (setup::identify()), and as
-/// coupling::tool_swap(); DataError as io::resample(); NumericalError where the holder is not known at some line.
+/// The receptances of the tip with the second tool across its axis, and how well the swap could be done.
+struct SwappedResponse {
+  dynamics::ResponseModel tip;
+  coupling::SwapStatus status = coupling::SwapStatus::done;
+  double worst_condition = 0.0;  ///< of T^A_11 − T^C_11, over all lines
+  double at_frequency_hz = 0.0;
+};
+
+/// The swap of the tools of `swap` in receptances between the tip and the point up with the first of them, in two
+/// directions across `axis`. Both tools are free beams (fem/beam.hpp), held alike: only tools differ. Throws InputError
+/// for a second point beyond the overhang, a direction that is not across the axis, and as coupling::tool_swap();
+/// NumericalError where the holder is not known at some line.
+[[nodiscard]] SwappedResponse swapped_response(const setup::ToolSwap& swap, const Eigen::Vector3d& axis,
+                                               const dynamics::ResponseModel& measured);
+
+/// swapped_response() on the lines of the first file, or on lines_of_modes() where the swap has a table of modes in
+/// place of files. Throws as it does, InputError for FRFs that are missing (named) and a table that was not given
+/// (setup::identify()), and DataError as io::resample().
 [[nodiscard]] SwappedTip swapped_tip(const setup::CutSetup& source);
 
 /// The tips of other tables of modes in place of the swap's own, on its lines. Errors as swapped_tip(). Cost: a swap of

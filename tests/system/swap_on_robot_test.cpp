@@ -9,9 +9,12 @@
 #include <cstdio>
 #include <fstream>
 
+#include "app/fit_command.hpp"
 #include "core/dense_eigenvalues.hpp"
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
+#include "io/frf/modal_table_csv.hpp"
+#include "io/frf/uff.hpp"
 #include "milling/chart/sampled_stability.hpp"
 #include "robot/modal_table.hpp"
 #include "setup/identified/identify.hpp"
@@ -307,6 +310,46 @@ TEST(SwapOnRobot, AtAPostureBetweenTheTappedOnesHasTheDepthsOfTheMachine) {
   EXPECT_LT(off, 0.005);
   EXPECT_LT(worst, 0.005);
   EXPECT_GE(within + 1, rpm.size()) << "ranges of 95 %";
+}
+
+/// The frequencies and damping ratios of modes from 500 Hz to 3 kHz by rising frequency.
+std::vector<std::pair<double, double>> modes_of(const dynamics::ModalTable& table) {
+  std::vector<std::pair<double, double>> modes;
+  for (const dynamics::ModalTableRow& row : table.rows) {
+    if (row.frequency_hz > 500.0 && row.frequency_hz < 3000.0) modes.emplace_back(row.frequency_hz, row.damping_ratio);
+  }
+  std::ranges::sort(modes);
+  return modes;
+}
+
+/// FRFs with the rod whose rod is exchanged before the fit give the modes of the machine with the carbide tool.
+TEST(SwapOnRobot, BeforeAFitGivesTheModesOfTheOtherTool) {
+  const fs::path folder = own_folder();
+  const dynamics::FrequencyAxis axis = dynamics::linear_axis(300.0, 3500.0, 801);
+  const auto with = [&](const dynamics::SpatialModel& tool, const std::vector<std::string>& dofs) {
+    return machine::only(dynamics::direct_response(assembled(1.0, tool), axis), dofs);
+  };
+  io::write_uff(folder / "rod.uff", with(reference(), {"1.x", "1.y", "1a.x", "1a.y"}), {});
+  io::write_uff(folder / "carbide.uff", with(target(), {"1.x", "1.y"}), {});
+  std::ofstream(folder / "tools.toml") << tools(carbide);
+  const auto fitted = [&](const std::string& file, const std::string& swap) {
+    FitRequest request;
+    request.input.sources = {(folder / file).string()};
+    request.swap = swap;
+    request.out = (folder / "fit").string();
+    const std::string said = fit_files(request);
+    EXPECT_EQ(said.find("exchanged for") != std::string::npos, !swap.empty()) << said;
+    return modes_of(io::read_modal_table(folder / "fit" / "modal_table.csv",
+                                         {io::modal_unit("sqrt(s/kg)"), io::modal_unit("sqrt(s/kg)"), {}}));
+  };
+  const auto exchanged = fitted("rod.uff", (folder / "tools.toml").string()), wanted = fitted("carbide.uff", "");
+  ASSERT_EQ(exchanged.size(), wanted.size());
+  EXPECT_GE(wanted.size(), 3U);
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    EXPECT_NEAR(exchanged[k].first, wanted[k].first, 1e-5 * wanted[k].first);
+    EXPECT_NEAR(exchanged[k].second, wanted[k].second, 1e-4 * wanted[k].second);
+  }
+  EXPECT_THROW((void)fitted("carbide.uff", (folder / "tools.toml").string()), core::UsageError) << "one point alone";
 }
 
 /// What is missing is told in one line at its key.
