@@ -141,19 +141,19 @@ dynamics::ResponseModel with_reference(const setup::ToolSwap& swap) {
 }
 
 SwappedResponse swapped(const Swap& swap, const dynamics::ResponseModel& measured) {
-  const coupling::SwappedTool swapped =
+  const coupling::SwappedTool in_machine =
       coupling::tool_swap(with_rotations(measured, swap.of, swap.directions, swap.axis), swap.reference, swap.target);
-  SwappedResponse result{{}, swapped.status, 0.0, 0.0};
+  SwappedResponse result{{}, in_machine.status, 0.0, 0.0};
   Eigen::Index worst = 0;
-  result.worst_condition = swapped.holder.condition.maxCoeff(&worst);
+  result.worst_condition = in_machine.holder.condition.maxCoeff(&worst);
   result.at_frequency_hz = measured.axis.hz(worst);
-  if (swapped.status == coupling::SwapStatus::rank_deficient) {
+  if (in_machine.status == coupling::SwapStatus::rank_deficient) {
     throw core::NumericalError(
         "tool.swap: at " + std::to_string(result.at_frequency_hz) +
         " Hz the measured FRFs say nothing of the holder (they are those of the free tool, or not "
         "independent); leave out such lines");
   }
-  const dynamics::ResponseModel tip = dynamics::between(swapped.coupled.response, swap.of.tip, swap.of.tip);
+  const dynamics::ResponseModel tip = dynamics::between(in_machine.coupled.response, swap.of.tip, swap.of.tip);
   dynamics::DofTable dofs;
   Eigen::MatrixXd E(std::ssize(swap.directions), std::ssize(tip.responses));
   for (const Vector3d& direction : swap.directions) {
@@ -166,10 +166,11 @@ SwappedResponse swapped(const Swap& swap, const dynamics::ResponseModel& measure
 }
 
 /// The tip in space: along its axis nothing holds the tool here.
-SwappedTip in_space(const SwappedResponse& swapped) {
-  SwappedTip result{{swapped.tip.axis.hz, {}}, swapped.status, swapped.worst_condition, swapped.at_frequency_hz};
-  const Eigen::Matrix3Xd D = dynamics::displacement_matrix(swapped.tip.responses, swapped.tip.responses.front().point);
-  for (const Eigen::MatrixXcd& H : swapped.tip.H) result.tip.H.emplace_back(D * H * D.transpose());
+SwappedTip in_space(const SwappedResponse& response) {
+  SwappedTip result{{response.tip.axis.hz, {}}, response.status, response.worst_condition, response.at_frequency_hz};
+  const Eigen::Matrix3Xd D =
+      dynamics::displacement_matrix(response.tip.responses, response.tip.responses.front().point);
+  for (const Eigen::MatrixXcd& H : response.tip.H) result.tip.H.emplace_back(D * H * D.transpose());
   return result;
 }
 

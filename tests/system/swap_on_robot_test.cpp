@@ -336,6 +336,7 @@ TEST(SwapOnRobot, BeforeAFitGivesTheModesOfTheOtherTool) {
     FitRequest request;
     request.input.sources = {(folder / file).string()};
     request.swap = swap;
+    request.order = 16;
     request.out = (folder / "fit").string();
     const std::string said = fit_files(request);
     EXPECT_EQ(said.find("exchanged for") != std::string::npos, !swap.empty()) << said;
