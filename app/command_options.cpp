@@ -114,6 +114,10 @@ void describe_fit(CLI::App& app, FitRequest& fit) {
                    "rigid mass at a point while all was measured, taken off before the fit, several times: \"1=30 g\"")
       ->type_name("POINT=MASS")
       ->allow_extra_args(false);
+  command
+      ->add_option("--swap", fit.swap,
+                   "[tool.swap] with the tool that was measured and another, for which it is exchanged before the fit")
+      ->type_name("FILE");
   command->add_option("--from", fit.from, "first frequency: \"20 Hz\" (default: all)")->type_name("FREQUENCY");
   command->add_option("--to", fit.to, "last frequency")->type_name("FREQUENCY");
   command

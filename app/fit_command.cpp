@@ -10,6 +10,7 @@
 #include "app/doctor.hpp"
 #include "app/fit_geometry.hpp"
 #include "app/fit_sensors.hpp"
+#include "app/fit_swap.hpp"
 #include "core/error.hpp"
 #include "core/split.hpp"
 #include "core/units.hpp"
@@ -157,6 +158,7 @@ std::vector<std::string> words_of(const FitRequest& request) {
   add("--forces", input.forces);
   add("--geometry", input.geometry);
   for (const std::string& sensor : request.sensors) add("--sensor", sensor);
+  add("--swap", request.swap);
   add("--from", request.from);
   add("--to", request.to);
   for (const std::string& band : request.left_out) add("--exclude", band);
@@ -177,6 +179,7 @@ std::string fit_files(const FitRequest& request) {
   identification::ResponseFitOptions options = options_of(request);
   FitMatrix matrix = fit_matrix(request.input);
   const std::vector<std::string> sensor_doubts = free_of_sensors(matrix, request.sensors);
+  const std::vector<std::string> swap_doubts = with_other_tool(matrix, request.swap);
   report::FitReport found{matrix.measured, {}};
   check_weights(matrix, request, found.notes);
   if (!request.poles.empty()) {
@@ -187,7 +190,8 @@ std::string fit_files(const FitRequest& request) {
   found.fit = fitted(matrix, request, options, found.notes);
   if (found.diagram.empty()) found.diagram = found.fit.found.diagram;
   found.doubts = identification::doubts_about(found.fit, matrix.measured.responses, matrix.measured.forces, options);
-  found.doubts.insert(found.doubts.end(), sensor_doubts.begin(), sensor_doubts.end());
+  for (const auto* doubts : {&sensor_doubts, &swap_doubts})
+    found.doubts.insert(found.doubts.end(), doubts->begin(), doubts->end());
   found.notes.insert(found.notes.end(), matrix.notes.begin(), matrix.notes.end());
   found.coherence = matrix.coherence;
   found.sources = matrix.files;

@@ -13,6 +13,7 @@ namespace thinwall::app {
 struct FitRequest {
   FitInput input;
   std::vector<std::string> sensors;   ///< "1=30 g": masses that sat at a point while all was measured
+  std::string swap;                   ///< file with the [tool.swap] that the FRFs go through; empty: none
   std::string from, to;               ///< "20 Hz"; empty: all lines
   std::vector<std::string> left_out;  ///< "50 Hz", lines within 1 % of it, or "49 Hz:51 Hz"
   std::string poles;                  ///< "10.4 Hz, 27 Hz"; empty: chosen from the diagram
@@ -26,8 +27,8 @@ struct FitRequest {
 };
 
 /// Reads, fits and writes the folder that report::write_fit() tells. Returns the text for the terminal. Throws
-/// UsageError for options that cannot be read, and as fit_matrix(), free_of_sensors() and
-/// identification::fit_response().
+/// UsageError for options that cannot be read, and as fit_matrix(), free_of_sensors(),
+/// with_other_tool() and identification::fit_response().
 [[nodiscard]] std::string fit_files(const FitRequest& request);
 
 }  // namespace thinwall::app

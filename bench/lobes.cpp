@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <numbers>
 
 #include "bench/dense_semi_discretization.hpp"
@@ -126,6 +127,25 @@ void path_along_plate() {
               time, weakest - field.minimum_depth_m.begin() + 1, field.rows_not_converged);
 }
 
+/// Four teeth with a helix of 30° on the plate at three places: the processor's time a row, whatever else it does.
+void helix_along_plate() {
+  MillingProcess process;
+  process.cutter = {4, 0.010};
+  process.cutter.helices_rad.assign(4, std::numbers::pi / 6.0);
+  process.coefficients = {6e8, 2e8, 0.0, 0.0, 0.0, 0.0};
+  process.engagement = engagement_of(process.cutter, 1e-3, MillingDirection::down);
+  process.frame = {Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
+  StabilityOptions options;
+  options.depth_limit_m = 0.01;
+  const std::vector<RelativeStructure> structures{plate_robot_tool(0.0), plate_robot_tool(0.5), plate_robot_tool(1.0)};
+  const std::vector<double> rpm = spindle_speeds(6000.0, 16000.0, 40);
+  const std::clock_t start = std::clock();
+  const LobeField field = lobe_field(structures, process, rpm, options);
+  const double time = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  std::printf("four helical teeth, 20 modes, along a path         %8.1f ms of the processor a row, %d not converged\n",
+              1e3 * time / static_cast<double>(structures.size() * rpm.size()), field.rows_not_converged);
+}
+
 void map_of_two_dof() {
   const std::vector<double> rpm = spindle_speeds(5000.0, 25000.0, 400);
   std::vector<double> depths;
@@ -159,5 +179,6 @@ int main() {
   plate("plate, robot, tool, 20 modes, limit at 400 speeds", 1.0);
   plate("the same, all branches to 20 times the limit", 20.0);
   path_along_plate();
+  helix_along_plate();
   map_of_two_dof();
 }

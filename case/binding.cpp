@@ -277,7 +277,9 @@ setup::ToolSwap bind_swap(const Table& table, const std::filesystem::path& folde
           table.number("distance"),
           table.choice<setup::SwapRotations>("rotations"),
           bind_steps(table.tables("reference")),
-          bind_steps(table.tables("target"))};
+          bind_steps(table.tables("target")),
+          table.optional("to"),
+          {}};
 }
 
 setup::Tool bind_tool(const Table& table, const std::filesystem::path& folder) {
@@ -337,6 +339,16 @@ setup::Cutting bind_cutting(const Table& table) {
   return cutting;
 }
 
+/// The point up the tool of the robot's tables, where another tool is swapped in at its modes.
+std::optional<setup::PointUp> bind_point_up(const Case& bound) {
+  if (!setup::carries_tool(bound.robot) || !bound.tool || !bound.cutting || !setup::swapped_on_robot(*bound.tool))
+    return std::nullopt;
+  const auto* robot = setup::tabled_robot(bound.robot);
+  if (robot == nullptr) return std::nullopt;
+  const setup::ToolSwap& swap = *bound.tool->swap;
+  return setup::PointUp{swap.up, swap.distance * (robot->base.linear().transpose() * bound.cutting->tool_axis)};
+}
+
 std::vector<std::string> point_names(const std::vector<setup::Point>& points) {
   std::vector<std::string> names;
   names.reserve(points.size());
@@ -381,6 +393,7 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   if (root.table("path").exists()) bound.path = bind_path(root.table("path"));
   if (setup::carries_tool(bound.robot)) {
     if (bound.cutting) bound.robot->cut_point = bound.cutting->at;
+    if (auto* robot = setup::tabled_robot(bound.robot)) robot->up = bind_point_up(bound);
     if (bound.path) bound.path->robot_follows = true;  // with the tool
   }
   if (root.table("simulation").exists()) bound.simulation = bind_simulation(root.table("simulation"), bound.lobes);

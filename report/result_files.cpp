@@ -169,7 +169,8 @@ void write_cuts(const fs::path& folder, const setup::Setup& source, const study:
   fs::create_directories(folder / "lobes");
   for (const auto& lobes : results.lobes) write_lobes(folder / "lobes", lobes);
   const fs::path tip = folder / "lobes" / "tool_frf.csv";
-  if (source.tool && source.tool->swap) write_swapped_frf(tip, study::swapped_tip(source).tip, results.synthesised_tip);
+  if (source.tool && source.tool->swap)
+    write_swapped_frf(tip, study::swapped_tip(results.setup).tip, results.synthesised_tip);
   else if (source.tool) write_tool_frf(tip, *source.tool, results.synthesised_tip);
   for (const auto& path : results.path) write_path(folder / "lobes", source, path);
 }

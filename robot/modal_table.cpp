@@ -80,16 +80,6 @@ void require_one_place_each(const ModalTable& table) {
   faults.raise("table of modes");
 }
 
-ModalTable with_dofs(const ModalTable& table, const std::vector<int>& rows) {
-  ModalTable part;
-  for (const int row : rows) part.dofs.push_back(table.dofs[static_cast<std::size_t>(row)]);
-  for (const ModalTableRow& mode : table.rows) {
-    part.rows.push_back(
-        {mode.mode, mode.frequency_hz, mode.damping_ratio, mode.right(rows), mode.left(rows), mode.place_m(rows)});
-  }
-  return part;
-}
-
 /// The row of `point` with the direction of `like`. Throws InputError if there is none.
 int partner(const ModalTable& table, const std::string& point, const Dof& like) {
   for (const int row : dynamics::rows_of_point(table.dofs, point)) {
@@ -160,9 +150,19 @@ dynamics::ModalModel modal_model(const ModalTable& table, PointPlaces places) {
   return model;
 }
 
+ModalTable at_dofs(const ModalTable& table, const std::vector<int>& dofs) {
+  ModalTable part;
+  for (const int row : dofs) part.dofs.push_back(table.dofs[static_cast<std::size_t>(row)]);
+  for (const ModalTableRow& mode : table.rows) {
+    part.rows.push_back(
+        {mode.mode, mode.frequency_hz, mode.damping_ratio, mode.right(dofs), mode.left(dofs), mode.place_m(dofs)});
+  }
+  return part;
+}
+
 ModalTable at_point(const ModalTable& table, const std::string& point) {
   require_valid(table);
-  return with_dofs(table, dynamics::rows_of_point(table.dofs, point));
+  return at_dofs(table, dynamics::rows_of_point(table.dofs, point));
 }
 
 ModalTable with_point_at(const ModalTable& table, const std::string& point, double place) {
@@ -183,7 +183,7 @@ ModalTable with_rotations(const ModalTable& table, const std::string& tip, const
   require_valid(table);
   if (!(std::abs(up.norm() - 1.0) <= 1e-9)) throw core::InputError("table of modes: up is not a unit vector");
   const std::vector<int> at_tip = dynamics::rows_of_point(table.dofs, tip);
-  ModalTable both = with_dofs(table, at_tip);
+  ModalTable both = at_dofs(table, at_tip);
   const auto n = static_cast<Index>(at_tip.size());
   for (ModalTableRow& row : both.rows) {
     row.right.conservativeResize(2 * n);

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
 #include "dynamics/modal_model.hpp"
 #include "dynamics/modal_table.hpp"
@@ -33,6 +34,9 @@ enum class PointPlaces { one_each, may_differ };
 
 /// The part of the table at one point, in rows and columns. For the tip, this is always at one place.
 [[nodiscard]] dynamics::ModalTable at_point(const dynamics::ModalTable& table, const std::string& point);
+
+/// The part of the table at some of its DOFs, in rows and columns.
+[[nodiscard]] dynamics::ModalTable at_dofs(const dynamics::ModalTable& table, const std::vector<int>& dofs);
 
 /// The rows in which `point` lies `place` (m, to 1e-9) from the tip, which are the modes of one sensor. Throws
 /// InputError, with the places that occur, if there is none.

@@ -57,6 +57,12 @@ struct CutSetup {
   std::optional<Calibration> calibration;
 };
 
+/// True if a robot carries the tool and is not in the tip already, as in that of a tool that is swapped in at its
+/// modes.
+[[nodiscard]] inline bool robot_beside_tool(const SupportSetup& support, const CutSetup& cut) {
+  return carries_tool(support.robot) && !(cut.tool && swapped_on_robot(*cut.tool));
+}
+
 /// All that is known of one set-up. What is absent is not computed. A stage takes those of the bases that it reads.
 struct Setup : PartSetup, MeasuredPart, SupportSetup, CutSetup {
   std::vector<Updating> updating;

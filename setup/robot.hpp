@@ -90,6 +90,12 @@ struct LearnedPostures {
   std::vector<dynamics::ModalTable> drawn;  ///< tables of modes that are as likely as the one that is expected
 };
 
+/// A second point of tables of modes, up the tool that was in the robot when it was tapped.
+struct PointUp {
+  std::string name;
+  Eigen::Vector3d from_tip = Eigen::Vector3d::Zero();  ///< m, axes of the table
+};
+
 /// A tip that is known by a table of its modes, or by one at each of some postures.
 struct TabledRobot {
   std::filesystem::path table;  ///< of postures with "{posture}" where the name of each is to stand
@@ -106,6 +112,8 @@ struct TabledRobot {
   std::shared_ptr<const dynamics::ModalTable> table_modes =
       {};                                               ///< of the table once it is read, or learned of `tapped`
   std::shared_ptr<const LearnedPostures> learned = {};  ///< beside learned ones
+  std::optional<PointUp> up = {};  ///< learned with the tip, both across the tool, for another tool in its place
+                                   ///< (ToolSwap); none: the tip alone
 };
 
 /// Chains of links and elastic joints that hold one tip.

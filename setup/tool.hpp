@@ -11,6 +11,7 @@
 
 #include "core/words.hpp"
 #include "dynamics/modal_model.hpp"
+#include "dynamics/modal_table.hpp"
 #include "setup/measured_frf.hpp"
 #include "setup/robot.hpp"
 
@@ -34,13 +35,17 @@ struct ToolStep {
   double youngs_modulus = 0.0, poisson_ratio = 0.0, density = 0.0;
 };
 
-/// The tip of a tool from FRFs that were measured with another in its place.
+/// The tip of a tool from FRFs that were measured with another in its place, or from the modes of the robot that
+/// carries it.
 struct ToolSwap {
-  std::vector<MeasuredFrf> measured;  ///< between two directions of two points
+  std::vector<MeasuredFrf> measured;  ///< between two directions of two points; none: `table` is in their place
   std::string tip, up;                ///< names of the points
   double distance = 0.0;              ///< m, of `up` from the tip
   SwapRotations rotations = SwapRotations::none;
   std::vector<ToolStep> reference, target;
+  std::optional<double> to_hz = {};                        ///< last line of `table`; none: its highest mode
+  std::shared_ptr<const dynamics::ModalTable> table = {};  ///< modes of both points, part axes, of the robot's table
+                                                           ///< once it is read or learned (setup/identified/)
 };
 
 /// The modes that were fitted to a measured tip, DOFs tool.x …, and what is to be said of the fit.
@@ -72,6 +77,11 @@ struct Tool {
 /// True of a tool whose tip has no poles of its own: measured lines that are not fitted, or a swapped tool.
 [[nodiscard]] inline bool known_by_lines(const Tool& tool) {
   return (!tool.measured.empty() && !tool.fit) || tool.swap.has_value();
+}
+
+/// True of a tool that is swapped in at the robot's own modes: the robot is in its tip.
+[[nodiscard]] inline bool swapped_on_robot(const Tool& tool) {
+  return tool.swap && tool.swap->measured.empty();
 }
 
 }  // namespace thinwall::setup

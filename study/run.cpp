@@ -308,7 +308,7 @@ void run_lobes(const setup::Setup& work, const std::vector<milling::OperatingPoi
                Results& results, Stages& stages) {
   if (!work.lobes || !work.cutting || !work.tool) return;
   const milling::ToolFrame frame = setup::milling_process(work).frame;
-  const bool carried = setup::carries_tool(work.robot);
+  const bool carried = setup::robot_beside_tool(work, work);
   // The cuts were made on the last of the charts: only that one learns from them.
   const auto chart_of = [&](ChartOf of, const dynamics::ModalModel* part, const dynamics::ModalModel* richer,
                             bool is_last) {
@@ -317,6 +317,7 @@ void run_lobes(const setup::Setup& work, const std::vector<milling::OperatingPoi
     if (!results.synthesised_tip) results.synthesised_tip = synthesised_tip(work, structure);
     StructureErrors errors = structure_errors(work, frame, structure, richer, carrier);
     errors.draws = drawn_poles(work, of, part, results);
+    if (setup::swapped_on_robot(*work.tool)) errors.drawn_changes = drawn_swaps(work, frame);
     setup::CutSetup cut = work;
     if (!is_last) cut.calibration.reset();
     results.lobes.push_back(compute_lobes(cut, of, structure, errors, points, kept));
@@ -360,10 +361,10 @@ void run_simulation(const setup::Setup& work, const std::vector<milling::Operati
 
 /// Finds the models of tool and robot that are identified from measurements.
 void run_identification(Kept& kept, setup::Setup& work, Stages& stages) {
-  if (!setup::awaits_fit(work) && !setup::awaits_learning(work)) return;
-  stages.begin("identification");
+  const bool awaits = setup::awaits_fit(work) || setup::awaits_learning(work);
+  if (awaits) stages.begin("identification");
   identify_or_take(kept.tool, kept.robot, work);
-  setup::tell_of_identified(work);
+  if (awaits) setup::tell_of_identified(work);
 }
 
 }  // namespace

@@ -312,7 +312,7 @@ std::vector<Problem> check_case(const Case& source) {
   if (source.cutting) check_cutting(source, findings);
   if (source.tool && (source.lobes || source.simulation) &&
       (!source.tool->measured.empty() || source.tool->swap || source.tool->fit))
-    check_measured_tool(*source.tool, findings);
+    check_measured_tool(source, findings);
   if (source.lobes) check_lobes(source, findings);
   check_observed(source, findings);
   if (source.machine) check_machine(source, findings);

@@ -260,7 +260,8 @@ void check_carrier(const Case& source, Findings& findings) {
                     "FRFs at the tip of a robot that carries the tool are those of the tool; give them as "
                     "[[tool.measured]] and remove [robot]");
   }
-  if (source.tool && (!source.tool->measured.empty() || source.tool->swap)) {
+  if (source.tool &&
+      (!source.tool->measured.empty() || (source.tool->swap && !setup::swapped_on_robot(*source.tool)))) {
     findings.report(
         "robot.carries",
         "the robot is in what was measured at the tool already; remove [robot], or give tool.modes in place "

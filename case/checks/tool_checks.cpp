@@ -5,21 +5,59 @@
 #include <string>
 
 #include "case/checks/measured_checks.hpp"
+#include "setup/identified/posture_tables.hpp"
 
 namespace thinwall::cases {
 
 namespace {
 
-void check_swap(const setup::Tool& tool, Findings& findings) {
+/// Reports a point up the tool that the table has not, or has along other directions than the tip.
+void check_point_up(const setup::ToolSwap& swap, const setup::TabledRobot& robot, Findings& findings) {
+  const dynamics::ModalTable& table = robot.tapped ? robot.tapped->tables.front() : *robot.table_modes;
+  if (std::ranges::none_of(table.dofs, [&](const dynamics::Dof& dof) { return dof.point == swap.up; })) {
+    findings.report("tool.swap.up", "\"" + swap.up +
+                                        "\" is no point of the robot's tables of modes; a swap needs the " +
+                                        "modes of two points of the tool: name the second, or tap it, too");
+    return;
+  }
+  if (const auto dofs = setup::used_part(robot, table).dofs; dofs.size() != 4) {
+    findings.report("tool.swap.up", "both points have " + std::to_string(dofs.size()) +
+                                        " directions across cutting.tool_axis in the robot's tables, must have four: "
+                                        "two at each, the same ones");
+  }
+}
+
+/// Reports what is missing for a swap at the robot's own modes.
+void check_swap_on_robot(const Case& source, Findings& findings) {
+  const setup::ToolSwap& swap = *source.tool->swap;
+  const setup::TabledRobot* robot = setup::tabled_robot(source.robot);
+  if (robot == nullptr || !setup::carries_tool(source.robot)) {
+    findings.report("tool.swap",
+                    "needs [[tool.swap.measured]], the FRFs with the reference tool, or a robot that carries it and is "
+                    "known by tables of modes with it (robot.model = \"modal_table\")");
+    return;
+  }
+  if (findings.written("tool.swap.tip"))
+    findings.report("tool.swap.tip", "the tip in the robot's tables is robot.table_point; remove the key");
+  if (swap.rotations != setup::SwapRotations::none)
+    findings.report("tool.swap.rotations",
+                    "the robot's modes are taken at both points as they are; set it to \"none\"");
+  if (!robot->cross_terms)
+    findings.report("robot.cross_terms", "a swap of the tool needs those between its points; remove the key");
+  if (!(swap.distance > 0.0) || !robot->up || !(robot->tapped || robot->table_modes)) return;  // reported
+  check_point_up(swap, *robot, findings);
+}
+
+void check_swap(const Case& source, Findings& findings) {
+  const setup::Tool& tool = *source.tool;
   if (!tool.modes.empty() || !tool.measured.empty())
     findings.report("tool.swap", "stands in place of tool.modes and tool.measured; remove them");
   if (tool.swap->reference.empty())
     findings.report("tool.swap", "needs [[tool.swap.reference]], the tool that was measured");
   if (tool.swap->target.empty()) findings.report("tool.swap", "needs [[tool.swap.target]], the tool that cuts");
-  if (tool.swap->measured.empty()) {
-    findings.report("tool.swap", "needs [[tool.swap.measured]], the FRFs with the reference tool");
-    return;
-  }
+  if (setup::swapped_on_robot(tool)) return check_swap_on_robot(source, findings);
+  if (tool.swap->to_hz)
+    findings.report("tool.swap.to", "is for a swap at the modes of a robot; bound the FRFs by tool.swap.measured.to");
   for (const std::string& point : {tool.swap->tip, tool.swap->up}) {
     const bool there = std::ranges::any_of(
         tool.swap->measured, [&](const setup::MeasuredFrf& frf) { return frf.response.starts_with(point + "."); });
@@ -31,8 +69,9 @@ void check_swap(const setup::Tool& tool, Findings& findings) {
 
 }  // namespace
 
-void check_measured_tool(const setup::Tool& tool, Findings& findings) {
-  if (tool.swap) check_swap(tool, findings);
+void check_measured_tool(const Case& source, Findings& findings) {
+  const setup::Tool& tool = *source.tool;
+  if (tool.swap) check_swap(source, findings);
   if (!tool.modes.empty() && !tool.measured.empty())
     findings.report("tool.measured", "give either tool.modes or tool.measured, not both");
   if (tool.fit && tool.measured.empty())

@@ -6,8 +6,8 @@
 
 namespace thinwall::cases {
 
-/// Reports modes beside measured FRFs, and an entry of the FRF matrix that is given twice. `tool.measured` is not
-/// empty.
-void check_measured_tool(const setup::Tool& tool, Findings& findings);
+/// Reports modes beside measured FRFs, an entry of the FRF matrix that is given twice, and what a tool that is swapped
+/// lacks: its FRFs, or a robot whose tables have both points. There is a tool.
+void check_measured_tool(const Case& source, Findings& findings);
 
 }  // namespace thinwall::cases

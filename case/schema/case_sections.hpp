@@ -89,7 +89,9 @@ inline constexpr Section case_sections[] = {
     Section{
         "tool.swap",
         "The tip from FRFs that were measured with another tool in its place (docs/theory/tool-swap.md), in place of "
-        "modes and measured.",
+        "modes and measured; without `[[tool.swap.measured]]` from the modes of the robot that carries it, whose "
+        "tables "
+        "have both points.",
         ""},
     Section{"tool.swap.measured[]", "The 16 FRFs between two directions of the tip and of a point up the tool.", ""},
     Section{"tool.swap.reference[]", "The tool that was measured: cylinders from the tip to the holder.", ""},

@@ -322,6 +322,7 @@ constexpr Key case_keys[] = {
     Key{"tool.swap.up", Type::text, kind::number, "\"1a\"", any, "", "Name of the point up the tool."},
     Key{"tool.swap.distance", Type::quantity, kind::length, "", positive, "", "Of that point from the tip.", required},
     Key{"tool.swap.rotations", Type::choice, kind::number, "\"none\"", any, "none|second_difference|corrected|rank_one", "`none`: the 16 displacements as they are, without bias. The others take rotations at the tip by differences, as published."},
+    Key{"tool.swap.to", Type::quantity, kind::frequency, "", positive, "", "Without `measured`: last line of the swapped tip; if not given the highest mode of the robot's table."},
     Key{"tool.swap.measured[].response", Type::name, kind::number, "", any, "", "DOF that moves, `1.x`.", required},
     Key{"tool.swap.measured[].force", Type::name, kind::number, "", any, "", "DOF that is excited.", required},
     Key{"tool.swap.measured[].file", Type::file, kind::number, "", any, "", "CSV (frequency, real part, imaginary part), `.frf`, `.lvm`, Universal File or MAT file. Lines are those of the first file.", required},

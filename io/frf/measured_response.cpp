@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 
 namespace thinwall::io {
 
@@ -38,6 +39,14 @@ std::string entry_name(const Dof& response, const Dof& force) {
   return name(response) + "/" + name(force);
 }
 
+/// "840 lines from 10 to 219.75 Hz".
+std::string lines_text(const MeasuredFrf& frf) {
+  const Eigen::VectorXd& hz = frf.axis.hz;
+  if (hz.size() == 0) return "no lines";
+  return std::to_string(hz.size()) + " lines from " + core::number_text(hz(0), 6) + " to " +
+         core::number_text(hz(hz.size() - 1), 6) + " Hz";
+}
+
 /// A list of faults, of which the message contains the first few.
 struct Faults {
   std::string text;
@@ -58,7 +67,8 @@ void add_absent(Faults& faults, const GrowingTable& responses, const GrowingTabl
   const std::size_t needed = responses.dofs.size() * forces.dofs.size();
   if (places.size() == needed) return;
   faults.add(std::to_string(places.size()) + " entries where " + std::to_string(responses.dofs.size()) +
-             " responses to " + std::to_string(forces.dofs.size()) + " forces need " + std::to_string(needed));
+             " responses to " + std::to_string(forces.dofs.size()) + " forces need " + std::to_string(needed) +
+             "; give the ones that are absent, or leave out their points");
   for (std::size_t row = 0; row < responses.dofs.size() && faults.count < 12; ++row) {
     for (std::size_t column = 0; column < forces.dofs.size() && faults.count < 12; ++column) {
       if (places.contains({static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)})) continue;
@@ -81,7 +91,9 @@ std::vector<Place> places_of(const std::vector<MeasuredEntry>& entries, GrowingT
     }
     const std::string name = entry_name(entry.response, entry.force);
     if (!equal(entry.frf.axis, entries.front().frf.axis)) {
-      faults.add("the entry " + name + " has other frequencies than the first entry");
+      faults.add("the entry " + name + " has other frequencies than the first entry, " + lines_text(entry.frf) +
+                 " in " + entry.frf.source + " beside " + lines_text(entries.front().frf) +
+                 "; measure or export all on the same lines");
     }
     places.emplace_back(responses.place_of(entry.response), forces.place_of(entry.force));
     if (!taken.insert(places.back()).second) faults.add("the entry " + name + " is there twice; remove one");

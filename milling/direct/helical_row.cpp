@@ -276,6 +276,16 @@ class HelicalSearch {
   std::size_t refinements_;
 };
 
+/// The depth to look at next. Where only the first crossing is wanted and a neighbour's is shallow beside the first
+/// step, the first look goes a fifth beyond that: a search costs an eigenvalue problem at every stop that its depth can
+/// reach.
+double next_look(const HelicalSearch& search, double depth_m, const StabilityOptions& options) {
+  const double next = search.next_depth(depth_m);
+  if (depth_m > 0.0 || options.follow != 1.0 || !options.expected_depth_m) return next;
+  const double near = 1.2 * *options.expected_depth_m;
+  return near < 0.5 * next ? near : next;
+}
+
 /// The depths from 0 to where the crossings are wanted, to where what is found no longer explains the counts, or to
 /// where an eigen-solution fails.
 CoarseCrossings scan(const HelicalSearch& search, const StabilityOptions& options) {
@@ -283,7 +293,7 @@ CoarseCrossings scan(const HelicalSearch& search, const StabilityOptions& option
   Probe low;
   while (low.depth_m < wanted_m(result.found, options)) {
     std::optional<Probe> high =
-        search.after(low, std::min(search.next_depth(low.depth_m), wanted_m(result.found, options)));
+        search.after(low, std::min(next_look(search, low.depth_m, options), wanted_m(result.found, options)));
     const bool explained = high && search.between(low, *high, 5, result);
     std::ranges::sort(result.found, {}, &Crossing::depth_m);
     if (!explained) break;

@@ -49,8 +49,12 @@ posture::TappedArm tapped_arm(const TabledRobot& robot, const dynamics::DofTable
   posture::TappedArm tapped{robot.mean->arm, Eigen::MatrixXd::Zero(std::ssize(dofs), 6), {}};
   tapped.arm.gravity = tapped.arm.base.linear().transpose() * tapped.arm.gravity;
   tapped.arm.base = Eigen::Isometry3d::Identity();
-  for (std::size_t i = 0; i < dofs.size(); ++i)
-    tapped.responses.row(static_cast<Eigen::Index>(i)).head<3>() = dofs[i].direction;
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    tapped.responses.row(row).head<3>() = dofs[i].direction;
+    if (robot.up && dofs[i].point == robot.up->name)
+      tapped.responses.row(row).tail<3>() = robot.up->from_tip.cross(dofs[i].direction);
+  }
   tapped.references = tapped.responses;
   return tapped;
 }

@@ -15,8 +15,8 @@ namespace thinwall::setup {
 /// robot.joint_columns. Empty where it has not.
 [[nodiscard]] Eigen::VectorXd joints_from_columns(const TabledRobot& robot);
 
-/// The arm in the axes of the table, tapped at its tip along the directions of `dofs`, as a response and as a
-/// reference.
+/// The arm in the axes of the table, tapped along the directions of `dofs`, as a response and as a reference: at its
+/// tip, or at the point up where a DOF is of that.
 [[nodiscard]] posture::TappedArm tapped_arm(const TabledRobot& robot, const dynamics::DofTable& dofs);
 
 /// Gives each posture, and the place that is asked for, the joints of the arm and its tip's turn (posture::tip_turn()),

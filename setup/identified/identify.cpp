@@ -12,6 +12,7 @@
 #include "setup/identified/arm_mean.hpp"
 #include "setup/identified/fitted_tip.hpp"
 #include "setup/identified/learned_modes.hpp"
+#include "setup/identified/table_modes.hpp"
 #include "setup/robot_tip.hpp"
 
 namespace thinwall::setup {
@@ -25,6 +26,20 @@ std::size_t draws_of_robot(const SupportSetup& source) {
 
 std::size_t draws_of_tool(const CutSetup& source) {
   return source.tool && source.tool->fitted ? source.tool->fitted->drawn.size() : 0;
+}
+
+/// The modes of the tip and the point up as the swap names them, in the part's axes.
+dynamics::ModalTable modes_for_swap(const TabledRobot& robot, const ToolSwap& swap) {
+  dynamics::ModalTable table = used_part(robot, *robot.table_modes);
+  Eigen::VectorXd place = Eigen::VectorXd::Zero(std::ssize(table.dofs));
+  for (std::size_t i = 0; i < table.dofs.size(); ++i) {
+    dynamics::Dof& dof = table.dofs[i];
+    const bool at_tip = dof.point == robot.table_point;
+    if (!at_tip) place(static_cast<Eigen::Index>(i)) = swap.distance;
+    dof = {at_tip ? swap.tip : swap.up, robot.base.linear() * dof.direction, dof.kind};
+  }
+  for (dynamics::ModalTableRow& row : table.rows) row.place_m = place;
+  return table;
 }
 
 }  // namespace
@@ -44,6 +59,12 @@ bool awaits_learning(const SupportSetup& source) {
   return robot != nullptr && robot->postures && !robot->table_modes;
 }
 
+void give_modes_to_swap(CutSetup& cut, const SupportSetup& support) {
+  const TabledRobot* robot = tabled_robot(support.robot);
+  if (!cut.tool || !swapped_on_robot(*cut.tool) || robot == nullptr || !robot->table_modes || !robot->up) return;
+  cut.tool->swap->table = std::make_shared<const dynamics::ModalTable>(modes_for_swap(*robot, *cut.tool->swap));
+}
+
 void identify(Setup& source) {
   if (awaits_fit(source)) {
     try {
@@ -52,11 +73,13 @@ void identify(Setup& source) {
       throw core::InputError(std::string("tool.fit: ") + error.what());
     }
   }
-  if (!awaits_learning(source)) return;
-  TabledRobot& robot = *tabled_robot(source.robot);
-  LearnedModes modes = learned_modes(robot, asked_joints(source, robot));
-  robot.table_modes = std::make_shared<const dynamics::ModalTable>(std::move(modes.table));
-  robot.learned = std::make_shared<const LearnedPostures>(std::move(modes.learned));
+  if (awaits_learning(source)) {
+    TabledRobot& robot = *tabled_robot(source.robot);
+    LearnedModes modes = learned_modes(robot, asked_joints(source, robot));
+    robot.table_modes = std::make_shared<const dynamics::ModalTable>(std::move(modes.table));
+    robot.learned = std::make_shared<const LearnedPostures>(std::move(modes.learned));
+  }
+  give_modes_to_swap(source, source);
 }
 
 void tell_of_identified(const Setup& source) {
@@ -80,6 +103,7 @@ void take_draw(std::size_t i, CutSetup& cut, SupportSetup& support) {
   if (i >= draws_of_robot(support)) return;
   TabledRobot& robot = *tabled_robot(support.robot);
   robot.table_modes = std::make_shared<const dynamics::ModalTable>(robot.learned->drawn[i]);
+  give_modes_to_swap(cut, support);
 }
 
 }  // namespace thinwall::setup

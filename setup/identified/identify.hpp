@@ -19,9 +19,14 @@ namespace thinwall::setup {
 /// the columns of robot.over, else by its own posture (wished_joints(), whose errors it has). Empty without an arm.
 [[nodiscard]] Eigen::VectorXd asked_joints(const Setup& source, const TabledRobot& robot);
 
-/// Fits the tool (fitted_tip()) and learns the robot's modes (learned_modes()) where that is asked for and not done.
-/// Errors as theirs; those of the fit name tool.fit. Cost: theirs.
+/// Fits the tool (fitted_tip()) and learns the robot's modes (learned_modes()) where that is asked for and not done,
+/// and gives a tool that is swapped in at the robot's modes these (give_modes_to_swap()). Errors as theirs; those of
+/// the fit name tool.fit. Cost: theirs.
 void identify(Setup& source);
+
+/// Gives a tool that is swapped in at the robot's modes those of the robot's table, in the part's axes; does nothing of
+/// another tool, or where the table is not known yet.
+void give_modes_to_swap(CutSetup& cut, const SupportSetup& support);
 
 /// Sends what was identified, and what speaks against it, as messages (core/messages.hpp).
 void tell_of_identified(const Setup& source);
@@ -29,7 +34,8 @@ void tell_of_identified(const Setup& source);
 /// The number of draws that stand beside what was identified; 0 where nothing was.
 [[nodiscard]] std::size_t draws_of(const Setup& source);
 
-/// Puts draw `i` of what was identified, below draws_of(), in place of the models of tool and robot.
+/// Puts draw `i` of what was identified, below draws_of(), in place of the models of tool and robot; a tool that is
+/// swapped in at the robot's modes has those of the draw.
 void take_draw(std::size_t i, CutSetup& cut, SupportSetup& support);
 
 }  // namespace thinwall::setup

@@ -27,10 +27,10 @@ std::string span(const std::vector<posture::PredictedMode>& modes, Eigen::Index 
 }  // namespace
 
 PostureLearning posture_learning(const TabledRobot& robot, const Eigen::VectorXd& asked_joints) {
-  PostureLearning learning{tapped_at_tip(robot), {}, {scaled_places(robot).at, {}, {}}, {}};
+  PostureLearning learning{tapped_postures(robot), {}, {scaled_places(robot).at, {}, {}}, {}};
   if (robot.mean)
-    learning.options.mean = calibrated_mean(robot, tapped_arm(robot, tip_dofs(robot)), asked_joints, learning.postures,
-                                            learning.asked, learning.note);
+    learning.options.mean = calibrated_mean(robot, tapped_arm(robot, learned_dofs(robot)), asked_joints,
+                                            learning.postures, learning.asked, learning.note);
   return learning;
 }
 
@@ -51,7 +51,7 @@ posture::Place place_at(TabledRobot robot, const PostureLearning& learning, cons
 LearnedModes learned_modes(const TabledRobot& robot, const Eigen::VectorXd& asked_joints) {
   if (!robot.postures || !robot.tapped)
     throw core::InputError("\"" + robot.table.string() + "\" was not read; call setup::read_data_files()");
-  const dynamics::DofTable dofs = tip_dofs(robot);
+  const dynamics::DofTable dofs = learned_dofs(robot);
   PostureLearning learning = posture_learning(robot, asked_joints);
   const posture::Predictor predictor(std::move(learning.postures), learning.options);
   const posture::PosturePrediction there = predictor.predict(learning.asked);

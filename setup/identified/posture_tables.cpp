@@ -16,7 +16,6 @@
 #include "posture/hull.hpp"
 #include "posture/mode_targets.hpp"
 #include "posture/predictor.hpp"
-#include "robot/modal_table.hpp"
 #include "setup/identified/arm_mean.hpp"
 
 namespace thinwall::setup {
@@ -228,20 +227,20 @@ ScaledPlaces scaled_places(const TabledRobot& robot) {
   return scaled;
 }
 
-std::vector<posture::TappedPosture> tapped_at_tip(const TabledRobot& robot) {
+std::vector<posture::TappedPosture> tapped_postures(const TabledRobot& robot) {
   const PostureTables& read = *robot.tapped;
   const Eigen::MatrixXd places = scaled_places(robot).places;
   std::vector<posture::TappedPosture> postures;
   for (std::size_t i = 0; i < read.tables.size(); ++i)
     postures.push_back({{places.row(static_cast<Eigen::Index>(i)).transpose(), {}, {}},
-                        modes_of(robot::at_point(read.tables[i], robot.table_point), read.files[i].string()),
+                        modes_of(used_part(robot, read.tables[i]), read.files[i].string()),
                         read.labels[i],
                         {}});
   return postures;
 }
 
-dynamics::DofTable tip_dofs(const TabledRobot& robot) {
-  return robot::at_point(robot.tapped->tables.front(), robot.table_point).dofs;
+dynamics::DofTable learned_dofs(const TabledRobot& robot) {
+  return used_part(robot, robot.tapped->tables.front()).dofs;
 }
 
 std::vector<std::string> names_of(const dynamics::DofTable& dofs) {

@@ -28,11 +28,12 @@ struct ScaledPlaces {
 /// The places of a robot whose postures were read.
 [[nodiscard]] ScaledPlaces scaled_places(const TabledRobot& robot);
 
-/// The postures of a robot whose postures were read, as a predictor takes them: scaled, with their modes at the tip.
-[[nodiscard]] std::vector<posture::TappedPosture> tapped_at_tip(const TabledRobot& robot);
+/// The postures of a robot whose postures were read, as a predictor takes them: scaled, with their modes at
+/// learned_dofs().
+[[nodiscard]] std::vector<posture::TappedPosture> tapped_postures(const TabledRobot& robot);
 
-/// The DOFs of the tip in the tables of a robot whose postures were read, table axes.
-[[nodiscard]] dynamics::DofTable tip_dofs(const TabledRobot& robot);
+/// The DOFs whose residues are learned of a robot whose postures were read, table axes (used_part()).
+[[nodiscard]] dynamics::DofTable learned_dofs(const TabledRobot& robot);
 
 /// The names of DOFs, in order.
 [[nodiscard]] std::vector<std::string> names_of(const dynamics::DofTable& dofs);

@@ -12,6 +12,7 @@
 #include "identification/fitted_model.hpp"
 #include "io/frf/modal_table_csv.hpp"
 #include "robot/freed_table.hpp"
+#include "robot/modal_table.hpp"
 
 namespace thinwall::setup {
 
@@ -61,6 +62,19 @@ TipTable read_tip_table(const std::filesystem::path& file, const TabledRobot& ro
   for (dynamics::ModalTableRow& row : table.rows)
     row.place_m(dynamics::rows_of_point(table.dofs, robot.table_point)).setZero();
   return without_sensors(std::move(table), robot, file.string());
+}
+
+dynamics::ModalTable used_part(const TabledRobot& robot, const dynamics::ModalTable& table) {
+  std::vector<int> dofs = dynamics::rows_of_point(table.dofs, robot.table_point);
+  if (robot.up) {
+    for (const int row : dynamics::rows_of_point(table.dofs, robot.up->name)) dofs.push_back(row);
+    std::erase_if(dofs, [&](int row) {
+      const dynamics::Dof& dof = table.dofs[static_cast<std::size_t>(row)];
+      return dof.kind != dynamics::DofKind::translation ||
+             std::abs(dof.direction.dot(robot.up->from_tip)) > 1e-6 * robot.up->from_tip.norm();
+    });
+  }
+  return robot::at_dofs(table, dofs);
 }
 
 std::string doubt_about_sensors(double condition, const std::string& where) {

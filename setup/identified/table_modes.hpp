@@ -32,6 +32,10 @@ struct TipTable {
 /// be taken off, and errors as io::modal_unit() and io::read_modal_table().
 [[nodiscard]] TipTable read_tip_table(const std::filesystem::path& file, const TabledRobot& robot);
 
+/// The part of a table that the robot's model takes: of its tip, or of the tip and the point up, across the tool, where
+/// there is one. Throws InputError for a point that the table has not.
+[[nodiscard]] dynamics::ModalTable used_part(const TabledRobot& robot, const dynamics::ModalTable& table);
+
 /// A sentence on sensors that make errors of a table larger by more than a factor of ten; empty if they do not.
 /// `where`: "at posture \"p3\"" or the name of the file.
 [[nodiscard]] std::string doubt_about_sensors(double condition, const std::string& where);

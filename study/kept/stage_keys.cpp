@@ -48,7 +48,7 @@ std::string robot_key(const setup::Setup& source) {
   if (robot == nullptr || !robot->postures) return "";
   const auto place = robot->mean ? setup::tip_place(source, source) : std::nullopt;  // where the arm is asked to stand
   return input_key(*robot->postures, robot->tapped, robot->table_point, robot->mean, robot->joint_columns,
-                   robot->base.linear().eval(), place);
+                   robot->base.linear().eval(), place, robot->up);
 }
 
 std::string structure_key(const setup::Setup& source) {

@@ -9,6 +9,7 @@
 #include "coupling/receptance.hpp"
 #include "setup/identified/identify.hpp"
 #include "study/lobes/cut_structure.hpp"
+#include "study/lobes/tool_swap.hpp"
 #include "study/support/support_stage.hpp"
 
 namespace thinwall::study {
@@ -53,6 +54,21 @@ std::vector<milling::RelativeStructure> drawn_poles(const setup::Setup& source, 
     structures.push_back(*cut_poles(there.cut, part, carrier ? &carrier_modes(*carrier) : nullptr));
   }
   return structures;
+}
+
+std::vector<std::vector<Eigen::Matrix3cd>> drawn_swaps(const setup::Setup& source, const milling::ToolFrame& frame) {
+  if (!robot_is_learned(source)) return {};
+  std::vector<dynamics::ModalTable> tables{*source.tool->swap->table};
+  for (std::size_t i = 0; i < setup::draws_of(source); ++i) tables.push_back(*drawn(source, i).cut.tool->swap->table);
+  const std::vector<SwappedTip> tips = swapped_tips(source, tables);
+  const Eigen::Matrix3d R = frame.rotation();
+  std::vector<std::vector<Eigen::Matrix3cd>> changes;
+  for (std::size_t i = 1; i < tips.size(); ++i) {
+    std::vector<Eigen::Matrix3cd>& of_draw = changes.emplace_back();
+    for (std::size_t line = 0; line < tips[i].tip.H.size(); ++line)
+      of_draw.emplace_back(R.transpose() * (tips[i].tip.H[line] - tips[0].tip.H[line]) * R);
+  }
+  return changes;
 }
 
 std::vector<std::vector<Eigen::Matrix3cd>> drawn_changes(const setup::Setup& source, const milling::ToolFrame& frame,

@@ -26,4 +26,9 @@ namespace thinwall::study {
                                                                        const milling::ToolFrame& frame,
                                                                        const Results& results);
 
+/// The changes of the lines of a tool that is swapped in at a robot's modes, by each draw of these; empty where they
+/// were not learned. Tool axes, one 3 × 3 a line of swapped_tip(). Cost: that of swapped_tips().
+[[nodiscard]] std::vector<std::vector<Eigen::Matrix3cd>> drawn_swaps(const setup::Setup& source,
+                                                                     const milling::ToolFrame& frame);
+
 }  // namespace thinwall::study

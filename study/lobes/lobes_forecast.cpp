@@ -32,7 +32,7 @@ struct StandIn {
 };
 
 StandIn structure_like(const setup::Setup& source, const milling::ToolFrame& frame) {
-  return {cut_structure(source, frame, poles_like(source))};
+  return {cut_structure(before_identification(source), frame, poles_like(source))};
 }
 
 /// The supported part as it is known by its lines: some of them, for a fit takes as long as there are lines.
@@ -131,7 +131,7 @@ ExpectedRows expected_rows(const setup::Setup& source) {
   if (lobes.map_depths) chart += 0.02 * lobes.count * *lobes.map_depths;
   const double stations = source.path ? static_cast<double>(source.path->positions.size()) : 0.0;
   chart += stations * lobes.count;
-  const bool with_robot = setup::carries_tool(source.robot) || (source.robot && !source.contacts.empty());
+  const bool with_robot = setup::robot_beside_tool(source, source) || (source.robot && !source.contacts.empty());
   if (!source.part || !with_robot) return {chart, 0.0};
   return setup::is_measured(*source.robot) ? ExpectedRows{chart, speeds} : ExpectedRows{2.0 * chart, 0.0};
 }

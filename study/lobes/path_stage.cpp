@@ -62,7 +62,7 @@ StructuresAlongPath structures_along_path(const PathInput& input, const Results&
                                           const milling::ToolFrame& frame) {
   const auto& models = results.finite_elements->along_path;
   const bool supported = results.coupled && results.coupled->model;
-  const bool carried = setup::carries_tool(input.support.robot);
+  const bool carried = setup::robot_beside_tool(input.support, input.cut);
   StructuresAlongPath structures;
   if (setup::known_by_lines(*input.cut.tool))
     structures.tool = std::get<milling::FittedStructure>(cut_structure(input.cut, frame, nullptr));
@@ -130,7 +130,7 @@ std::vector<PathLobes> lobes_along_path(const PathInput& input, const Results& r
     core::warn("no charts of the supported part along the path: part and robot are not joined by matrices");
   std::vector<PathLobes> all{charts(input.cut, ChartOf::part, method, process, structures.tool, structures.part, kept)};
   if (!structures.with_robot.empty()) {
-    const ChartOf of = setup::carries_tool(input.support.robot) ? ChartOf::carried : ChartOf::supported;
+    const ChartOf of = setup::robot_beside_tool(input.support, input.cut) ? ChartOf::carried : ChartOf::supported;
     all.push_back(charts(input.cut, of, method, process, structures.tool, structures.with_robot, kept));
     all.back().robot = structures.robot;
   }

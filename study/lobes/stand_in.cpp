@@ -80,6 +80,7 @@ setup::Setup before_identification(setup::Setup source) {
   if (setup::awaits_learning(source)) {
     auto& robot = std::get<setup::TabledRobot>(source.robot->model);
     robot = setup::as_first_posture(robot);
+    setup::give_modes_to_swap(source, source);
   }
   return source;
 }
@@ -109,7 +110,7 @@ milling::RelativeStructure modes_like(const setup::Setup& source) {
 std::optional<milling::RelativeStructure> poles_like(const setup::Setup& given) {
   const setup::Setup source = before_identification(given);
   std::optional<Component> robot;
-  if (setup::carries_tool(source.robot)) {
+  if (setup::robot_beside_tool(source, source)) {
     robot = robot_component(*source.robot, {Eigen::VectorXd::Ones(1)}, setup::robot_posture(source, source).posture);
   }
   std::optional<milling::RelativeStructure> poles =

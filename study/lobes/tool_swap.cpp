@@ -6,9 +6,11 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/units.hpp"
 #include "coupling/finite_difference_rotations.hpp"
 #include "dynamics/conversion.hpp"
 #include "fem/beam.hpp"
+#include "robot/modal_table.hpp"
 #include "setup/measured.hpp"
 
 namespace thinwall::study {
@@ -105,38 +107,107 @@ dynamics::ResponseModel with_rotations(const dynamics::ResponseModel& measured, 
       .T;
 }
 
-}  // namespace
+/// What both swaps of a case have in common, whatever was measured.
+struct Swap {
+  const setup::ToolSwap& of;
+  Vector3d axis;
+  std::vector<Vector3d> directions;
+  coupling::HeldTool reference, target;
+};
 
-SwappedTip swapped_tip(const setup::CutSetup& source) {
-  const setup::ToolSwap& swap = *source.tool->swap;
-  const Vector3d& axis = source.cutting->tool_axis;
-  const dynamics::FrequencyAxis lines = setup::receptance_of(swap.measured.front()).axis;
-  const dynamics::ResponseModel measured = setup::measured_response(swap.measured, lines);
+Swap swap_on(const setup::ToolSwap& swap, const Vector3d& axis, const dynamics::ResponseModel& measured) {
   const std::vector<Vector3d> directions = directions_of(measured, axis);
   const coupling::Contact held = joint(directions, axis);
-  const coupling::SwappedTool swapped =
-      coupling::tool_swap(with_rotations(measured, swap, directions, axis),
-                          {free_response(free_tool(swap.reference, swap, swap.up, axis), lines), held},
-                          {free_response(free_tool(swap.target, swap, "", axis), lines), held});
-  SwappedTip result;
-  result.status = swapped.status;
+  return {swap,
+          axis,
+          directions,
+          {free_response(free_tool(swap.reference, swap, swap.up, axis), measured.axis), held},
+          {free_response(free_tool(swap.target, swap, "", axis), measured.axis), held}};
+}
+
+dynamics::ResponseModel response_of(const dynamics::ModalTable& table, const dynamics::FrequencyAxis& lines) {
+  return dynamics::to_response(robot::modal_model(table), lines);
+}
+
+/// The FRFs with the reference tool, on the lines of their first file or those of the modes.
+dynamics::ResponseModel with_reference(const setup::ToolSwap& swap) {
+  if (!swap.measured.empty())
+    return setup::measured_response(swap.measured, setup::receptance_of(swap.measured.front()).axis);
+  if (!swap.table)
+    throw core::InputError(
+        "tool.swap has neither FRFs nor the modes of a robot; call setup::identify() for those, or give "
+        "tool.swap.measured");
+  return response_of(*swap.table, lines_of_modes(swap));
+}
+
+SwappedResponse swapped(const Swap& swap, const dynamics::ResponseModel& measured) {
+  const coupling::SwappedTool in_machine =
+      coupling::tool_swap(with_rotations(measured, swap.of, swap.directions, swap.axis), swap.reference, swap.target);
+  SwappedResponse result{{}, in_machine.status, 0.0, 0.0};
   Eigen::Index worst = 0;
-  result.worst_condition = swapped.holder.condition.maxCoeff(&worst);
-  result.at_frequency_hz = lines.hz(worst);
-  if (swapped.status == coupling::SwapStatus::rank_deficient) {
+  result.worst_condition = in_machine.holder.condition.maxCoeff(&worst);
+  result.at_frequency_hz = measured.axis.hz(worst);
+  if (in_machine.status == coupling::SwapStatus::rank_deficient) {
     throw core::NumericalError(
         "tool.swap: at " + std::to_string(result.at_frequency_hz) +
         " Hz the measured FRFs say nothing of the holder (they are those of the free tool, or not "
         "independent); leave out such lines");
   }
-  result.tip.frequency_hz = lines.hz;
-  const dynamics::ResponseModel tip = dynamics::between(swapped.coupled.response, swap.tip, swap.tip);
-  Eigen::Matrix3Xd D = dynamics::displacement_matrix(tip.responses, swap.tip);
-  for (auto d : D.colwise()) {
-    if (!(std::abs(d.dot(axis)) < 1e-6)) d.setZero();  // along its axis nothing holds the tool here
+  const dynamics::ResponseModel tip = dynamics::between(in_machine.coupled.response, swap.of.tip, swap.of.tip);
+  dynamics::DofTable dofs;
+  Eigen::MatrixXd E(std::ssize(swap.directions), std::ssize(tip.responses));
+  for (const Vector3d& direction : swap.directions) {
+    dofs.push_back({swap.of.tip, direction, dynamics::DofKind::translation});
+    E.row(std::ssize(dofs) - 1) = dynamics::displacement_row(tip.responses, swap.of.tip, direction).transpose();
   }
-  for (const Eigen::MatrixXcd& H : tip.H) result.tip.H.emplace_back(D * H * D.transpose());
+  result.tip = {tip.axis, dofs, dofs, {}};
+  for (const Eigen::MatrixXcd& H : tip.H) result.tip.H.emplace_back(E * H * E.transpose());
   return result;
+}
+
+/// The tip in space: along its axis nothing holds the tool here.
+SwappedTip in_space(const SwappedResponse& response) {
+  SwappedTip result{{response.tip.axis.hz, {}}, response.status, response.worst_condition, response.at_frequency_hz};
+  const Eigen::Matrix3Xd D =
+      dynamics::displacement_matrix(response.tip.responses, response.tip.responses.front().point);
+  for (const Eigen::MatrixXcd& H : response.tip.H) result.tip.H.emplace_back(D * H * D.transpose());
+  return result;
+}
+
+}  // namespace
+
+dynamics::FrequencyAxis lines_of_modes(const setup::ToolSwap& swap) {
+  constexpr double least = 20.0, most = 4000.0;
+  const auto [low, high] = std::ranges::minmax(swap.table->rows, {}, &dynamics::ModalTableRow::frequency_hz);
+  const double from = 0.5 * low.frequency_hz, to = swap.to_hz.value_or(high.frequency_hz);
+  if (!(to > from))
+    throw core::InputError("tool.swap.to: " + core::readable_text(to, core::kind::frequency) +
+                           " lies below the modes of the robot's table, must be above " +
+                           core::readable_text(from, core::kind::frequency));
+  double damping = 1.0;
+  for (const dynamics::ModalTableRow& row : swap.table->rows)
+    if (row.frequency_hz <= to) damping = std::min(damping, row.damping_ratio);
+  return dynamics::logarithmic_axis(from, to,
+                                    static_cast<int>(std::clamp(2.0 * std::log(to / from) / damping, least, most)));
+}
+
+SwappedResponse swapped_response(const setup::ToolSwap& swap, const Vector3d& axis,
+                                 const dynamics::ResponseModel& measured) {
+  return swapped(swap_on(swap, axis, measured), measured);
+}
+
+SwappedTip swapped_tip(const setup::CutSetup& source) {
+  const setup::ToolSwap& swap = *source.tool->swap;
+  return in_space(swapped_response(swap, source.cutting->tool_axis, with_reference(swap)));
+}
+
+std::vector<SwappedTip> swapped_tips(const setup::CutSetup& source, const std::vector<dynamics::ModalTable>& tables) {
+  const dynamics::ResponseModel expected = with_reference(*source.tool->swap);
+  const Swap swap = swap_on(*source.tool->swap, source.cutting->tool_axis, expected);
+  std::vector<SwappedTip> tips(tables.size());
+  core::parallel_for(tables.size(),
+                     [&](std::size_t i) { tips[i] = in_space(swapped(swap, response_of(tables[i], expected.axis))); });
+  return tips;
 }
 
 }  // namespace thinwall::study

@@ -74,11 +74,15 @@ std::vector<double> chart_speeds(const setup::Setup& source) {
 std::optional<posture::PostureCut> cut_of(const setup::Setup& source, const setup::TabledRobot& robot,
                                           std::vector<std::string>& notes) {
   if (!setup::carries_tool(source.robot) || !source.tool || !source.cutting) return std::nullopt;
+  if (setup::swapped_on_robot(*source.tool)) {
+    notes.emplace_back("no depths: they are those of the tool that is swapped in, which `run` charts at robot.at");
+    return std::nullopt;
+  }
   if (setup::known_by_lines(*source.tool) || setup::awaits_fit(source))
     throw core::InputError("the tool is known by lines, must have poles beside the robot's; give tool.modes");
   posture::PostureCut cut;
   cut.process = setup::milling_process(source);
-  const dynamics::DofTable dofs = setup::tip_dofs(robot);
+  const dynamics::DofTable dofs = setup::learned_dofs(robot);
   cut.responses.resize(3, std::ssize(dofs));
   for (std::size_t i = 0; i < dofs.size(); ++i) {
     const bool moves = dofs[i].kind == dynamics::DofKind::translation;
@@ -120,7 +124,7 @@ void tell_learning(const LearnedRobot& learned, const PostureQuestions& question
 
 void answer_curve(const LearnedRobot& learned, const std::optional<posture::PostureCut>& cut, PostureStudy& study) {
   std::optional<posture::TappedArm> nominal;
-  if (learned.robot.mean) nominal = setup::tapped_arm(learned.robot, setup::tip_dofs(learned.robot));
+  if (learned.robot.mean) nominal = setup::tapped_arm(learned.robot, setup::learned_dofs(learned.robot));
   study.curves = posture::learning_curves(study.postures, learned.learning.options, nominal, cut);
   if (!study.curves->plain.empty()) return;
   study.curves.reset();
@@ -175,7 +179,7 @@ PostureStudy study_postures(const setup::Setup& source, const PostureQuestions& 
                             const StageListener& listener) {
   Stages stages(listener);
   const setup::TabledRobot robot = tapped_robot(source);
-  PostureStudy study{robot.tapped->names,  robot.postures->over, setup::names_of(setup::tip_dofs(robot)),
+  PostureStudy study{robot.tapped->names,  robot.postures->over, setup::names_of(setup::learned_dofs(robot)),
                      robot.tapped->places, asked_place(robot),   {}};
   study.doubts = setup::doubts_about(robot);
   study.chart_rpm = chart_speeds(source);

@@ -1,0 +1,379 @@
+// A tool that is swapped in at the modes of the robot that carries it, at a posture where it was not tapped, against
+// the machine assembled with that tool.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstdio>
+#include <fstream>
+
+#include "app/fit_command.hpp"
+#include "core/dense_eigenvalues.hpp"
+#include "core/dense_factorisations.hpp"
+#include "core/error.hpp"
+#include "io/frf/modal_table_csv.hpp"
+#include "io/frf/uff.hpp"
+#include "milling/chart/sampled_stability.hpp"
+#include "robot/modal_table.hpp"
+#include "setup/identified/identify.hpp"
+#include "setup/milling_process.hpp"
+#include "study/lobes/lobes_stage.hpp"
+#include "study/lobes/tool_swap.hpp"
+#include "tests/system/run_in_folder.hpp"
+#include "tests/verification/tool_swap/machine.hpp"
+
+namespace thinwall::tests::swap_on_robot_test {
+namespace {
+
+namespace fs = std::filesystem;
+namespace machine = coupling::testing;
+using Complex = std::complex<double>;
+using Eigen::Vector3d;
+
+constexpr double S = 0.02;
+
+/// The machine in posture u, without the rest of its tool: bearings that stiffen along x and soften along y.
+dynamics::SpatialModel machine_at(double u) {
+  fem::BeamFrame frame;
+  frame.nodes = {{0.06 * Vector3d::UnitZ(), "nose"},
+                 {0.10 * Vector3d::UnitZ()},
+                 {0.30 * Vector3d::UnitZ()},
+                 {Vector3d::Zero(), "holder"}};
+  frame.segments = {{0, 1, dynamics::section(machine::steel(0.060)), 1},
+                    {1, 2, dynamics::section(machine::steel(0.055, 0.020)), 2},
+                    {3, 0, dynamics::section(machine::steel(0.034, 0.012)), 2}};
+  frame.springs = machine::spindle_frame().springs;
+  for (fem::NodeSpring& bearing : frame.springs) {
+    bearing.stiffness(0, 0) *= 1.0 + 0.1 * u;
+    bearing.stiffness(1, 1) *= 1.0 - 0.05 * u;
+    bearing.damping *= 3.0 + 0.3 * u;
+  }
+  dynamics::SpatialModel all = fem::spatial_model(frame);
+  all.C += 1e-6 * all.K;
+  return all;
+}
+
+/// The machine in posture u with a tool, which has no damping of its own.
+dynamics::SpatialModel assembled(double u, const dynamics::SpatialModel& tool) {
+  coupling::Contact held{"root", "holder", {}, {}};
+  for (const auto kind : {dynamics::DofKind::translation, dynamics::DofKind::rotation}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      held.springs.emplace_back();
+      held.springs.back().direction = Vector3d::Unit(axis);
+      held.springs.back().kind = kind;
+    }
+  }
+  return coupling::couple({tool, machine_at(u)}, {held});
+}
+
+/// Steel of 16 mm, 90 mm out; the elements are those of the case's own beams, so that only the swap is between them.
+dynamics::SpatialModel reference() {
+  return fem::tool_beam({{S, machine::steel(0.016), 8}, {0.09 - S, machine::steel(0.016), 8}}, {"1", "1a", "root"},
+                        Vector3d::UnitZ());
+}
+/// Carbide of 12 mm, 65 mm out.
+dynamics::SpatialModel target() {
+  return fem::tool_beam({{0.065, machine::carbide(0.012), 8}}, {"1", "root"}, Vector3d::UnitZ());
+}
+
+/// A line of a table of modes: frequency, damping ratio, right and left vectors at 1X, 1Y, aX, aY.
+void write_row(std::ofstream& file, double hz, double zeta, const Eigen::VectorXcd& right,
+               const Eigen::VectorXcd& left) {
+  file << hz << "," << zeta;
+  for (Eigen::Index i = 0; i < right.size(); ++i)
+    file << "," << right(i).real() << "," << right(i).imag() << "," << left(i).real() << "," << left(i).imag();
+  file << "\n";
+}
+
+/// The model over its undamped modes below 100 kHz: all that a table has of it moves in these.
+dynamics::SpatialModel low_modes(const dynamics::SpatialModel& all) {
+  const dynamics::UndampedModes modes = dynamics::undamped_modes(all);
+  const Eigen::Index count = (modes.omega_rad_s.array() < 2.0 * std::numbers::pi * 1e5).count();
+  const Eigen::MatrixXd Phi = modes.Phi.leftCols(count);
+  const Eigen::VectorXd omega = modes.omega_rad_s.head(count);
+  return {Eigen::MatrixXd::Identity(count, count),
+          Phi.transpose() * all.C * Phi,
+          omega.cwiseAbs2().asDiagonal(),
+          {},
+          all.dofs,
+          dynamics::displacements(all) * Phi};
+}
+
+/// Writes the modes of posture u with the reference tool up to `up_to_hz`, and unless told otherwise what they leave of
+/// the static compliance as modes at six times that frequency.
+void write_table(const fs::path& path, double u, double up_to_hz, bool with_rest = true) {
+  const dynamics::SpatialModel whole = assembled(u, reference());
+  std::vector<int> rows;
+  for (const char* name : {"1.x", "1.y", "1a.x", "1a.y"}) rows.push_back(dynamics::row_of(whole.dofs, name));
+  const Eigen::MatrixXd T = dynamics::displacements(whole)(rows, Eigen::all);
+  const dynamics::ModalModel modes = dynamics::to_modal(low_modes(whole));
+  Eigen::MatrixXd rest = T * whole.K.ldlt().solve(T.transpose());
+  std::ofstream file(path);
+  file.precision(17);
+  file << "frequency_hz,damping_ratio,R_1X_re,R_1X_im,L_1X_re,L_1X_im,R_1Y_re,R_1Y_im,L_1Y_re,L_1Y_im,"
+          "R_1aX_re,R_1aX_im,L_1aX_re,L_1aX_im,R_1aY_re,R_1aY_im,L_1aY_re,L_1aY_im\n";
+  const double largest = modes.right(rows, Eigen::all).cwiseAbs().maxCoeff();
+  for (Eigen::Index k = 0; k < modes.poles.size(); ++k) {
+    const std::complex<double> pole = modes.poles(k);
+    const double hz = std::abs(pole) / (2.0 * std::numbers::pi);
+    const Eigen::VectorXcd right = modes.right(rows, k), left = modes.left(rows, k) / modes.scaling(k);
+    if (pole.imag() <= 0.0 || hz > up_to_hz || right.cwiseAbs().maxCoeff() < 1e-9 * largest) continue;
+    rest += 2.0 * (right * left.transpose() / pole).real();
+    write_row(file, hz, -pole.real() / std::abs(pole), right, left);
+  }
+  if (!with_rest) return;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> statics(0.5 * (rest + rest.transpose()));
+  for (Eigen::Index k = 0; k < 4; ++k) {
+    constexpr double zeta = 0.1;
+    const double omega = 2.0 * std::numbers::pi * 6.0 * up_to_hz * (1.0 + 0.1 * static_cast<double>(k));
+    const Eigen::VectorXcd phi =
+        (omega * std::sqrt(std::max(0.0, statics.eigenvalues()(k))) * statics.eigenvectors().col(k)).cast<Complex>();
+    if (phi.isZero(0.0)) continue;
+    write_row(file, omega / (2.0 * std::numbers::pi), zeta, phi,
+              phi / Complex(0.0, 2.0 * omega * std::sqrt(1.0 - zeta * zeta)));
+  }
+}
+
+std::string tools(const std::string& target) {
+  return R"([tool]
+teeth = 2
+diameter = "12 mm"
+length = "40 mm"
+[tool.swap]
+up = "1a"
+distance = "20 mm"
+to = "6 kHz"
+[[tool.swap.reference]]
+length = "90 mm"
+outer_diameter = "16 mm"
+youngs_modulus = "210 GPa"
+poisson_ratio = 0.3
+density = "7850 kg/m^3"
+[[tool.swap.target]]
+)" + target +
+         R"([cutting]
+radial_depth = "12 mm"
+Kt = "800 N/mm^2"
+Kr = "240 N/mm^2"
+[lobes]
+from = "8000 rpm"
+to = "20000 rpm"
+count = 8
+most_added = 0
+)";
+}
+
+const std::string carbide = R"(length = "65 mm"
+outer_diameter = "12 mm"
+youngs_modulus = "580 GPa"
+density = "14400 kg/m^3"
+)";
+/// The tool that was tapped, in the two steps in which its own beam is divided at the second point.
+const std::string same = R"(length = "20 mm"
+outer_diameter = "16 mm"
+youngs_modulus = "210 GPa"
+poisson_ratio = 0.3
+density = "7850 kg/m^3"
+[[tool.swap.target]]
+length = "70 mm"
+outer_diameter = "16 mm"
+youngs_modulus = "210 GPa"
+poisson_ratio = 0.3
+density = "7850 kg/m^3"
+)";
+
+std::string one_table(const std::string& target) {
+  return "[robot]\nmodel = \"modal_table\"\ncarries = \"tool\"\ntable = \"modes.csv\"\n" + tools(target);
+}
+
+std::string postures(double at, const std::string& target) {
+  return "[robot]\nmodel = \"modal_table\"\ncarries = \"tool\"\npostures = \"postures.csv\"\ntable = "
+         "\"{posture}.csv\"\nover = [\"u\"]\nat = [" +
+         std::to_string(at) + "]\n" + tools(target);
+}
+
+void write_postures(const fs::path& folder, int count, double up_to_hz) {
+  std::ofstream list(folder / "postures.csv");
+  list << "posture,u\n";
+  for (int i = 0; i < count; ++i) {
+    const double u = 4.0 * i / (count - 1);
+    list << "p" << i << "," << u << "\n";
+    write_table(folder / ("p" + std::to_string(i) + ".csv"), u, up_to_hz);
+  }
+}
+
+/// The largest difference of the tip up to 3 kHz from that of the machine in posture u with the carbide tool, over the
+/// largest receptance.
+double off_truth(const milling::SampledReceptance& tip, double u) {
+  const Eigen::Index lines = (tip.frequency_hz.array() < 3000.0).count();
+  const dynamics::ResponseModel truth =
+      machine::only(dynamics::direct_response(assembled(u, target()), {tip.frequency_hz.head(lines)}), {"1.x", "1.y"});
+  double worst = 0.0, largest = 0.0;
+  for (std::size_t line = 0; line < truth.H.size(); ++line) {
+    worst = std::max(worst, (tip.H[line].topLeftCorner<2, 2>() - truth.H[line]).norm());
+    largest = std::max(largest, truth.H[line].norm());
+  }
+  return worst / largest;
+}
+
+fs::path own_folder() {
+  return scratch(std::string("swap_on_robot_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+}
+
+Case identified(const std::string& text, const fs::path& folder) {
+  Case source = parse_case(text, folder);
+  setup::identify(source);
+  return source;
+}
+
+/// What the table leaves out is the only error, and falls with the square of its highest frequency.
+TEST(SwapOnRobot, TheTipIsThatOfTheMachineWithTheOtherTool) {
+  const fs::path folder = own_folder();
+  double before = 0.0;
+  for (const double up_to_hz : {12e3, 48e3}) {
+    write_table(folder / "modes.csv", 1.0, up_to_hz);
+    const study::SwappedTip found = study::swapped_tip(identified(one_table(carbide), folder));
+    EXPECT_EQ(found.status, coupling::SwapStatus::done);
+    const double off = off_truth(found.tip, 1.0);
+    std::printf("modes up to %.0f Hz, %td lines: tip off by %.2g\n", up_to_hz, found.tip.frequency_hz.size(), off);
+    if (before > 0.0) {
+      EXPECT_LT(off, before / 4.0);
+    }
+    before = off;
+  }
+  write_table(folder / "modes.csv", 1.0, 12e3, false);
+  const double bare = off_truth(study::swapped_tip(identified(one_table(carbide), folder)).tip, 1.0);
+  std::printf("modes up to 12000 Hz alone: tip off by %.2g\n", bare);
+  EXPECT_GT(bare, 0.01) << "the compliance of the modes above is felt";
+}
+
+/// A tool that is swapped for itself leaves the receptance of the table as it is, whatever the table leaves out.
+TEST(SwapOnRobot, TheSameToolGivesBackTheModes) {
+  const fs::path folder = own_folder();
+  write_table(folder / "modes.csv", 0.0, 8e3);
+  const Case source = identified(one_table(same), folder);
+  const study::SwappedTip found = study::swapped_tip(source);
+  const dynamics::ResponseModel table =
+      dynamics::to_response(robot::modal_model(*source.tool->swap->table), {found.tip.frequency_hz});
+  for (std::size_t line = 0; line < table.H.size(); ++line) {
+    const Eigen::Matrix2cd swapped = found.tip.H[line].topLeftCorner(2, 2), tapped = table.H[line].topLeftCorner(2, 2);
+    EXPECT_LT((swapped - tapped).norm(), 1e-7 * tapped.norm());
+  }
+}
+
+/// The limiting depths of the machine in posture u with the carbide tool, by its receptance on lines to 20 kHz.
+std::vector<double> true_depths(const Case& source, double u, const std::vector<double>& speeds_rpm) {
+  const milling::MillingProcess process = setup::milling_process(source);
+  const Eigen::Matrix3d R = process.frame.rotation();
+  milling::SampledStructure lines{{dynamics::logarithmic_axis(200.0, 20000.0, 2500).hz, {}}, {}};
+  const dynamics::ResponseModel truth =
+      machine::only(dynamics::direct_response(assembled(u, target()), {lines.samples.frequency_hz}), {"1.x", "1.y"});
+  for (const Eigen::MatrixXcd& H : truth.H) {
+    Eigen::Matrix3cd tip = Eigen::Matrix3cd::Zero();
+    tip.topLeftCorner<2, 2>() = H;
+    lines.samples.H.emplace_back(R.transpose() * tip * R);
+  }
+  const milling::FittedStructure structure = milling::fitted_structure(lines, process.frame);
+  std::vector<double> depths;
+  for (const double rpm : speeds_rpm)
+    depths.push_back(
+        milling::limiting_depth(structure, process, rpm, study::stability_options(*source.lobes)).limiting_depth_m);
+  return depths;
+}
+
+/// A posture between the tapped ones, through the program: the chart is that of the machine with the carbide tool, and
+/// its range of 95 % by what was learned holds it.
+TEST(SwapOnRobot, AtAPostureBetweenTheTappedOnesHasTheDepthsOfTheMachine) {
+  const fs::path folder = own_folder();
+  constexpr double u = 1.3;
+  write_postures(folder, 6, 16e3);
+  const Case source = identified(postures(u, carbide), folder);
+  const double off = off_truth(study::swapped_tip(source).tip, u);
+  const nlohmann::json summary = run(postures(u, carbide), folder);
+  ASSERT_EQ(summary["lobes"].size(), 1U) << "the robot is in the tip, and is charted once";
+  EXPECT_EQ(summary["lobes"][0]["name"], "tool");
+  const auto rpm = column(folder / "lobes" / "tool.csv", "spindle_speed_rpm"),
+             depth = column(folder / "lobes" / "tool.csv", "limiting_depth_m"),
+             low = column(folder / "lobes" / "tool.csv", "identification_low_m"),
+             high = column(folder / "lobes" / "tool.csv", "identification_high_m");
+  const std::vector<double> truth = true_depths(source, u, rpm);
+  double worst = 0.0;
+  std::size_t within = 0;
+  for (std::size_t i = 0; i < rpm.size(); ++i) {
+    worst = std::max(worst, std::abs(depth[i] / truth[i] - 1.0));
+    within += low[i] <= truth[i] && truth[i] <= high[i] ? 1 : 0;
+  }
+  std::printf("posture between the tapped ones: tip off by %.2g, depths at %zu speeds by %.2g\n", off, rpm.size(),
+              worst);
+  EXPECT_LT(off, 0.005);
+  EXPECT_LT(worst, 0.005);
+  EXPECT_GE(within + 1, rpm.size()) << "ranges of 95 %";
+}
+
+/// The frequencies and damping ratios of modes from 500 Hz to 3 kHz by rising frequency.
+std::vector<std::pair<double, double>> modes_of(const dynamics::ModalTable& table) {
+  std::vector<std::pair<double, double>> modes;
+  for (const dynamics::ModalTableRow& row : table.rows) {
+    if (row.frequency_hz > 500.0 && row.frequency_hz < 3000.0) modes.emplace_back(row.frequency_hz, row.damping_ratio);
+  }
+  std::ranges::sort(modes);
+  return modes;
+}
+
+/// FRFs with the rod whose rod is exchanged before the fit give the modes of the machine with the carbide tool.
+TEST(SwapOnRobot, BeforeAFitGivesTheModesOfTheOtherTool) {
+  const fs::path folder = own_folder();
+  const dynamics::FrequencyAxis axis = dynamics::linear_axis(300.0, 3500.0, 801);
+  const auto with = [&](const dynamics::SpatialModel& tool, const std::vector<std::string>& dofs) {
+    return machine::only(dynamics::direct_response(assembled(1.0, tool), axis), dofs);
+  };
+  io::write_uff(folder / "rod.uff", with(reference(), {"1.x", "1.y", "1a.x", "1a.y"}), {});
+  io::write_uff(folder / "carbide.uff", with(target(), {"1.x", "1.y"}), {});
+  std::ofstream(folder / "tools.toml") << tools(carbide);
+  const auto fitted = [&](const std::string& file, const std::string& swap) {
+    FitRequest request;
+    request.input.sources = {(folder / file).string()};
+    request.swap = swap;
+    request.order = 16;
+    request.out = (folder / "fit").string();
+    const std::string said = fit_files(request);
+    EXPECT_EQ(said.find("exchanged for") != std::string::npos, !swap.empty()) << said;
+    return modes_of(io::read_modal_table(folder / "fit" / "modal_table.csv",
+                                         {io::modal_unit("sqrt(s/kg)"), io::modal_unit("sqrt(s/kg)"), {}}));
+  };
+  const auto exchanged = fitted("rod.uff", (folder / "tools.toml").string()), wanted = fitted("carbide.uff", "");
+  ASSERT_EQ(exchanged.size(), wanted.size());
+  EXPECT_GE(wanted.size(), 3U);
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    EXPECT_NEAR(exchanged[k].first, wanted[k].first, 1e-5 * wanted[k].first);
+    EXPECT_NEAR(exchanged[k].second, wanted[k].second, 1e-4 * wanted[k].second);
+  }
+  EXPECT_THROW((void)fitted("carbide.uff", (folder / "tools.toml").string()), core::UsageError) << "one point alone";
+}
+
+/// What is missing is told in one line at its key.
+TEST(SwapOnRobot, TellsWhatIsMissing) {
+  const fs::path folder = own_folder();
+  write_table(folder / "modes.csv", 0.0, 8e3);
+  const auto told = [&](const std::string& from, const std::string& to, const std::string& part) {
+    std::string text = one_table(carbide);
+    text.replace(text.find(from), from.size(), to);
+    try {
+      (void)parse_case(text, folder);
+      ADD_FAILURE() << "accepted, though " << part;
+    } catch (const core::Error& error) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+  };
+  told("up = \"1a\"", "up = \"2\"", "tool.swap.up: \"2\" is no point of the robot's tables");
+  told("up = \"1a\"", "up = \"1a\"\ntip = \"1\"", "tool.swap.tip: ");
+  told("up = \"1a\"", "up = \"1a\"\nrotations = \"rank_one\"", "tool.swap.rotations: ");
+  told("table = ", "cross_terms = false\ntable = ", "robot.cross_terms: ");
+  told("carries = \"tool\"\n", "", "tool.swap: needs [[tool.swap.measured]]");
+  told("[cutting]", "[cutting]\ntool_axis = \"x\"", "two at each");
+}
+
+}  // namespace
+}  // namespace thinwall::tests::swap_on_robot_test
