@@ -25,6 +25,17 @@ void add_overrides(CLI::App& command, Arguments& arguments) {
       ->allow_extra_args(false);
 }
 
+/// An empty name would stand for the default, as where a variable of a script is not set.
+std::string has_a_name(const std::string& folder) {
+  return folder.empty() ? "the name is empty; name a folder, or leave the option out" : "";
+}
+
+void add_result_folder(CLI::App& command, Arguments& arguments) {
+  command.add_option("--out", arguments.out, "result folder (default: results/<case>)")
+      ->type_name("DIR")
+      ->check(has_a_name);
+}
+
 void add_case_arguments(CLI::App& command, Arguments& arguments) {
   command.add_option("CASE", arguments.case_path, "a folder with a case.toml, or the file")
       ->type_name("PATH")
@@ -42,7 +53,7 @@ void add_log_arguments(CLI::App& command, Arguments& arguments) {
 /// Options that `run` and `lobes` have in common.
 void add_run_arguments(CLI::App& command, Arguments& arguments) {
   command.add_flag("--fresh", arguments.fresh, "compute everything anew, whatever an earlier run left");
-  command.add_option("--out", arguments.out, "result folder (default: results/<case>)")->type_name("DIR");
+  add_result_folder(command, arguments);
   command
       .add_option("--at", arguments.points,
                   "an operating point, several times: --at \"5000 rpm, 0.5 mm\"; stable or not, and the margins")
@@ -143,14 +154,18 @@ void describe_fit(CLI::App& app, FitRequest& fit) {
   command->add_option("--noise", fit.noise, "noise of real and imaginary part, relative: 0.01 (default: by scatter)");
   command->add_flag("--passive", fit.passive,
                     "residues are moved, as little as needed, until the model gives no energy");
-  command->add_option("-o,--out", fit.out, "folder for the tables and the page (default: fit)")->type_name("DIR");
+  command->add_option("-o,--out", fit.out, "folder for the tables and the page (default: fit)")
+      ->type_name("DIR")
+      ->check(has_a_name);
 }
 
 void describe_reduce(CLI::App& app, Arguments& arguments) {
   ReduceRequest& reduce = arguments.reduce;
   auto* command = app.add_subcommand("reduce", "the part of a case as a small model, its error and a report on it");
   add_case_arguments(*command, arguments);
-  command->add_option("-o,--out", reduce.out, "folder for the model (default: model)")->type_name("DIR");
+  command->add_option("-o,--out", reduce.out, "folder for the model (default: model)")
+      ->type_name("DIR")
+      ->check(has_a_name);
   command->add_option("--method", reduce.method, "how it is reduced (default: craig_bampton)")
       ->type_name("guyan|craig_bampton|characteristic_constraint_modes|rubin|macneal|craig_chang|dual_craig_bampton");
   auto* modes = command->add_option("--modes", reduce.modes, "elastic modes kept")->check(CLI::Range(0, 2000));
@@ -203,7 +218,7 @@ void describe_simulate(CLI::App& app, Arguments& arguments) {
                                      "where teeth leave the cut, and the wall; options take the place of what "
                                      "[simulation] of the case says");
   add_case_arguments(*command, arguments);
-  command->add_option("--out", arguments.out, "result folder (default: results/<case>)")->type_name("DIR");
+  add_result_folder(*command, arguments);
   command
       ->add_option("--at", arguments.points,
                    "an operating point, several times: --at \"5000 rpm, 0.5 mm\" (default: simulation.at, else both "
@@ -239,7 +254,7 @@ void describe_postures(CLI::App& app, Arguments& arguments) {
       "modes "
       "over the postures, first frequency and depth over the workspace, and the posture to tap next");
   add_case_arguments(*command, arguments);
-  command->add_option("--out", arguments.out, "result folder (default: results/<case>)")->type_name("DIR");
+  add_result_folder(*command, arguments);
   command->add_option("--parts", postures.parts, "what is answered (default: errors,curve,sharing,map,envelope,next)")
       ->type_name("PARTS");
   command
@@ -355,7 +370,7 @@ void describe(CLI::App& app, Arguments& arguments) {
   auto* robot_command = app.add_subcommand(
       "robot", "modes and stiffness of the robot's tip in its posture, along a path, over a workspace");
   add_case_arguments(*robot_command, arguments);
-  robot_command->add_option("--out", arguments.out, "result folder (default: results/<case>)")->type_name("DIR");
+  add_result_folder(*robot_command, arguments);
   describe_postures(app, arguments);
   describe_calibrate(app, arguments);
   describe_validate(app, arguments);

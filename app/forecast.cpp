@@ -35,6 +35,7 @@ Forecast forecast(const cases::Case& source) {
     result.part = size_of(source, part, result.first_mesh);
   }
   result.lobes = study::forecast_lobes(source);
+  if (result.lobes && !result.lobes->refusal.empty()) throw core::InputError(result.lobes->refusal);
   result.simulation = study::forecast_simulation(source);
   return result;
 }

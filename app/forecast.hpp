@@ -31,8 +31,8 @@ struct Forecast {
 
 /// The forecast of a case: the part from its first mesh where a file holds it (study::forecast()), else by
 /// cases::estimate_size(), study::forecast_identification(), study::forecast_lobes() and study::forecast_simulation().
-/// Throws InputError for points that do not hold the part, and as study::forecast(). Cost: two seconds for charts and
-/// simulation at most each, and the first mesh.
+/// Throws InputError for points that do not hold the part and lines that do not reach, and as study::forecast(). Cost:
+/// two seconds for charts and simulation at most each, and the first mesh.
 [[nodiscard]] Forecast forecast(const cases::Case& source);
 
 /// "about 3 min" or, of what is only known to be longer, "over 3 min"; a second at least.

@@ -37,10 +37,10 @@ void limit_memory(const std::string& text) {
   try {
     bytes = core::parse_quantity(text, core::kind::memory);
   } catch (const core::InputError& error) {
-    throw core::InputError(std::string("--memory: ") + error.what());
+    throw core::UsageError(std::string("--memory: ") + error.what());
   }
   if (bytes < least_bytes)
-    throw core::InputError("--memory: " + text + " is less than the program itself takes; give at least " +
+    throw core::UsageError("--memory: " + text + " is less than the program itself takes; give at least " +
                            core::readable_text(least_bytes, core::kind::memory));
   core::set_memory_limit(bytes);
   std::thread(watch, bytes).detach();

@@ -3,16 +3,14 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <string_view>
 #include <utility>
 
 #include "app/forecast.hpp"
 #include "app/lobes_input.hpp"
 #include "app/log.hpp"
+#include "app/option_keys.hpp"
 #include "case/checks/doubts.hpp"
 #include "case/numbers.hpp"
-#include "case/problem.hpp"
-#include "case/reader.hpp"
 #include "core/atomic_file.hpp"
 #include "core/messages.hpp"
 #include "report/publish.hpp"
@@ -37,33 +35,12 @@ std::string list_of(const std::vector<std::string>& points) {
   return "[" + list + "]";
 }
 
-/// The options of the command and the keys that they stand for.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 6> keys_of_options{
-    {{"simulation.at", "--at"},
-     {"simulation.paths", "--paths"},
-     {"simulation.settling_turns", "--settle"},
-     {"simulation.turns", "--turns"},
-     {"simulation.trace", "--trace"},
-     {"simulation.steps", "--steps"}}};
-
-/// The case; a problem of a value that an option gave is told of the option, beyond the first `written` overrides.
-cases::Case read_for_options(const std::filesystem::path& path, const std::vector<std::string>& overrides,
-                             std::size_t written) {
-  try {
-    return cases::read_case(path, overrides);
-  } catch (const cases::CaseError& error) {
-    std::vector<cases::Problem> problems = error.problems;
-    for (cases::Problem& problem : problems) {
-      if (problem.line >= -static_cast<int>(written)) continue;
-      for (const auto& [key, option] : keys_of_options) {
-        if (!problem.text.starts_with(std::string(key) + ":")) continue;
-        problem = {0, 0, std::string(option) + problem.text.substr(key.size())};
-        break;
-      }
-    }
-    throw cases::CaseError(error.source, std::move(problems));
-  }
-}
+constexpr std::array<OptionKey, 6> keys_of_options{{{"simulation.at", "--at"},
+                                                    {"simulation.paths", "--paths"},
+                                                    {"simulation.settling_turns", "--settle"},
+                                                    {"simulation.turns", "--turns"},
+                                                    {"simulation.trace", "--trace"},
+                                                    {"simulation.steps", "--steps"}}};
 
 /// Simulates a case and publishes its tables; returns the text for the terminal.
 std::string simulated_into(const cases::Case& source, const report::ResultFolder& folder, ProgressDisplay display) {
@@ -105,10 +82,10 @@ cases::Case simulated_case(const std::filesystem::path& path, std::vector<std::s
   put("turns", request.turns);
   put("trace", request.traced_turns);
   put("steps", request.steps);
-  cases::Case source = read_for_options(path, overrides, written);
+  cases::Case source = read_with_options(path, overrides, written, keys_of_options);
   if (source.simulation) return source;
   overrides.emplace_back("simulation.paths=circular");
-  return read_for_options(path, overrides, written);
+  return read_with_options(path, overrides, written, keys_of_options);
 }
 
 std::string simulate_case(cases::Case source, const std::filesystem::path& out, ProgressDisplay display) {

@@ -101,7 +101,8 @@ auto read_list(const toml::node& node, Read read) {
 std::vector<double> read_vector(const toml::node& node, const Key& key) {
   const auto* array = node.as_array();
   if (array == nullptr || array->size() != 3) {
-    throw InputError("must be a list of three, along x, y, z, such as [\"0 mm\", \"20 mm\", \"0 mm\"]");
+    const std::string one = "\"" + std::string(key.kind.example) + "\"";
+    throw InputError("must be a list of three, along x, y, z, such as [" + one + ", " + one + ", " + one + "]");
   }
   return read_list(node, [&](const toml::node& entry) { return read_quantity(entry, key); });
 }

@@ -155,6 +155,8 @@ void replace_one_by_one(const fs::path& staging, const fs::path& folder, const s
     for (const std::string& name : names) moves.move_if_there(staging / name, folder / name);
   } catch (const fs::filesystem_error&) {
     moves.take_back();
+    std::error_code not_empty;  // where a file could not be taken back it stays there
+    fs::remove(earlier, not_empty);
     throw;
   }
   remove_or_tell(staging);

@@ -18,6 +18,7 @@
 #include "app/sweep/sweep_record.hpp"
 #include "app/sweep/sweep_table.hpp"
 #include "app/terminal.hpp"
+#include "case/problem.hpp"
 #include "case/reader.hpp"
 #include "case/schema/schema.hpp"
 #include "core/atomic_file.hpp"
@@ -86,6 +87,16 @@ void fail(SweepRow& row, ExitCode code, std::string reason) {
   spdlog::warn("point {}: {}", row.number, row.reason);
 }
 
+/// The problems of the case at a point; those of the point's values and of --set have no place in the file.
+std::string reason_of(const cases::CaseError& error) {
+  std::string reason;
+  for (const cases::Problem& problem : error.problems) {
+    reason += reason.empty() ? "" : "; ";
+    reason += problem.line < 0 ? problem.text : cases::problem_line(error.source.name, problem);
+  }
+  return reason;
+}
+
 /// Runs `body`; what goes wrong with this point only becomes its reason.
 template <typename Body>
 void guard_point(SweepRow& row, const Body& body) {
@@ -93,6 +104,8 @@ void guard_point(SweepRow& row, const Body& body) {
     body();
   } catch (const core::Interrupted&) {
     throw;
+  } catch (const cases::CaseError& error) {
+    fail(row, error.code(), reason_of(error));
   } catch (const core::Error& error) {
     fail(row, error.code(), error.what());
   } catch (const std::bad_alloc&) {

@@ -61,6 +61,19 @@ void ask_about_wall(const Case& source, std::vector<std::string>& doubts) {
                              " otherwise; if it is so, name its largest extent part.length"));
 }
 
+/// Patches that reach beyond the part on all sides: no contact is as large.
+void ask_about_patches(const Case& source, std::vector<std::string>& doubts) {
+  const auto* box = source.part ? std::get_if<setup::BoxShape>(&source.part->shape) : nullptr;
+  if (box == nullptr) return;
+  const double largest = std::max({box->length, box->height, box->thickness});
+  for (const setup::Point& point : source.points) {
+    if (2.0 * point.patch_radius <= largest) continue;
+    doubts.push_back("points." + point.name + ".patch_radius is " + length(point.patch_radius) +
+                     ", wider than the part of " + length(largest) +
+                     ": it is the radius of the area that a cutter or a robot touches, a millimetre or some");
+  }
+}
+
 void ask_about_materials(const Case& source, std::vector<std::string>& doubts) {
   if (!source.part) return;
   std::vector<std::pair<double, std::string>> moduli;
@@ -179,6 +192,7 @@ std::vector<std::string> doubts_about(const Case& source) {
   std::vector<std::string> doubts;
   ask_about_bare_lengths(source, doubts);
   ask_about_wall(source, doubts);
+  ask_about_patches(source, doubts);
   ask_about_materials(source, doubts);
   ask_about_robot_damping(source, doubts);
   ask_about_turns(source, doubts);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -17,6 +18,7 @@
 #include "io/results/csv_table.hpp"
 #include "report/fit/fit_json.hpp"
 #include "report/fit/fit_page.hpp"
+#include "report/folder_lock.hpp"
 #include "report/model_files.hpp"
 #include "report/page/page.hpp"
 #include "report/publish.hpp"
@@ -228,11 +230,22 @@ std::vector<std::string> write_into(const std::filesystem::path& folder, const F
   return left_out;
 }
 
+/// Removes what a killed fit left in the folder; its lock keeps this from the files of one that still writes.
+void remove_leftovers(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> left;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (core::is_partial_name(entry.path())) left.push_back(entry.path());
+  }
+  for (const std::filesystem::path& path : left) std::filesystem::remove_all(path);
+}
+
 }  // namespace
 
 std::vector<std::string> write_fit(const std::filesystem::path& folder, const FitReport& found,
                                    const std::string& program) {
   make_model_folder(folder);
+  const std::optional<FolderLock> lock = FolderLock::of(folder);
+  if (lock) remove_leftovers(folder);
   const std::filesystem::path staging = core::partial_path(folder / "fit");
   std::filesystem::create_directory(staging);
   try {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -86,6 +88,20 @@ Took mean_row(const std::function<void(double rpm)>& row, double from_rpm, doubl
   return mean;
 }
 
+/// What milling::require_range() has against measured lines at the ends of the chart; empty if nothing.
+std::string refusal_of_lines(const setup::Setup& source) {
+  if (!setup::known_by_lines(*source.tool)) return "";
+  const milling::MillingProcess process = setup::milling_process(source);
+  const CutStructure tip = cut_structure(source, process.frame, std::nullopt);
+  try {
+    for (const double rpm : {source.lobes->to_rpm, source.lobes->from_rpm})
+      milling::require_range(std::get<milling::FittedStructure>(tip).lines.samples, process, rpm);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 using StructureLike = StandIn (*)(const setup::Setup&, const milling::ToolFrame&);
 
 /// The time of so many rows of a structure, on all threads, and of making it; over: at least so much.
@@ -139,7 +155,8 @@ ExpectedRows expected_rows(const setup::Setup& source) {
 std::optional<LobesForecast> forecast_lobes(const setup::Setup& source, double limit_s) {
   if (!source.lobes || !source.cutting || !source.tool) return std::nullopt;
   try {
-    LobesForecast result{expected_rows(source), 0.0, false};
+    LobesForecast result{expected_rows(source), 0.0, false, refusal_of_lines(source)};
+    if (!result.refusal.empty()) return result;
     const Took of_poles = time_of_charts(source, structure_like, result.rows.of_structure, limit_s);
     const Took of_lines = time_of_charts(source, lines_like, result.rows.of_lines, limit_s);
     result.seconds = of_poles.seconds + of_lines.seconds;

@@ -3,6 +3,7 @@
 // part's.
 
 #include <optional>
+#include <string>
 
 #include "setup/machining_setup.hpp"
 
@@ -18,7 +19,8 @@ struct ExpectedRows {
 struct LobesForecast {
   ExpectedRows rows;
   double seconds = 0.0;
-  bool at_least = false;  ///< a row was given up: all of them take as long or longer
+  bool at_least = false;     ///< a row was given up: all of them take as long or longer
+  std::string refusal = {};  ///< milling::require_range()'s, of measured lines at the ends of the chart; empty: none
 };
 
 /// The rows of all charts: with and without the robot, along a path, of methods to compare with, of a map, and those
@@ -30,9 +32,9 @@ struct LobesForecast {
 /// between them, and of the fit of lines. What is known is taken as it is: cut, tool, and the lines of a measured tip.
 /// The part's modes, which are not known yet, have the density of those of a plate of its extent and thickness (Cremer,
 /// Heckl & Petersson 2005) and its mass. It is right within a factor of three as a rule. Empty where there is no chart,
-/// or where no row can be computed, which the run will tell. Throws Interrupted. Cost: that of three rows and a fit,
-/// `limit_s` at most, or twice that where lines of the supported part are fitted, but for steps that do not look at
-/// interrupts.
+/// or where no row can be computed, which the run will tell; `refusal` alone is set where measured lines do not reach.
+/// Throws Interrupted. Cost: that of three rows and a fit, `limit_s` at most, or twice that where lines of the
+/// supported part are fitted, but for steps that do not look at interrupts.
 [[nodiscard]] std::optional<LobesForecast> forecast_lobes(const setup::Setup& source, double limit_s = 1.5);
 
 }  // namespace thinwall::study

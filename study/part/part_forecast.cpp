@@ -24,30 +24,38 @@ double dofs(const mesh::TetMesh& mesh, int order) {
   return 3.0 * static_cast<double>(mesh::lagrange_node_count(mesh, order));
 }
 
-/// The time of one solution; a part is bulky if its diagonal is less than twenty mean wall thicknesses.
-double solve_s(double dofs, bool bulky) {
-  return (bulky ? 4.0 : 2.0) * std::pow(dofs / 4e4, 1.3);
+/// The time of one solution on two cores, s.
+double solve_s(double dofs) {
+  return 1.3 * std::pow(dofs / 4e4, 1.3);
 }
 
-/// The diagonal of a part in mean wall thicknesses 2 V / A of its surface.
-double slenderness(const setup::ImportedPart& part) {
-  const mesh::TriangleSurface& surface = part.surface->surface;
-  double area = 0.0;
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-    area += mesh::area_vector(surface, static_cast<int>(t)).norm();
-  return part.box.diagonal().norm() * area / (2.0 * part.surface->volume_m3);
+/// The shares of the third and the fourth order that parts took at a tolerance, and whether those with edges that turn
+/// inwards take a finer mesh as well: by plates with holes and slots, panels, profiles, trays and bent sheets.
+struct Refinement {
+  double third = 1.0, fourth = 1.0;
+  bool finer = true;
+};
+
+Refinement usual_refinement(double tolerance) {
+  if (tolerance >= 0.05) return {0.15, 0.0, false};
+  if (tolerance >= 0.02) return {0.3, 0.15, false};
+  return tolerance >= 0.01 ? Refinement{1.0, 0.4, false} : Refinement{};
 }
 
-/// The time of the solutions that a tolerance usually takes, from the first order on.
+/// The time of the solutions that a tolerance usually takes, from the first order on: two of them in any case, the
+/// others within the part's budget.
 double refinement_s(const setup::Part& part, const mesh::TetMesh& mesh, int first_order, int last_order) {
-  const bool bulky = slenderness(*part.imported) < 20.0, loose = part.mesh.tolerance >= 0.05;
-  const bool reentrant = fem::has_reentrant_edge(part.imported->surface->surface);
-  double level = 0.0;
+  const Refinement usual = usual_refinement(part.mesh.tolerance);
+  double first = 0.0, further = 0.0;
   for (int order = first_order; order <= last_order; ++order) {
-    const double share = bulky || order < first_order + 2 ? 1.0 : order == first_order + 2 && !loose ? 0.5 : 0.0;
-    level += share * solve_s(dofs(mesh, order), bulky);
+    const int beyond = order - first_order;
+    const double share = beyond < 2 ? 1.0 : beyond == 2 ? usual.third : usual.fourth;
+    (beyond < 2 ? first : further) += share * solve_s(dofs(mesh, order));
   }
-  return reentrant ? level * (1.0 + (loose ? 0.25 : 1.0) * std::pow(3.5, 1.3)) : level;
+  const bool finer = usual.finer && fem::has_reentrant_edge(part.imported->surface->surface);
+  if (finer) further += (first + further) * std::pow(3.5, 1.3);
+  const double budget = part.mesh.time_budget.value_or(INFINITY);
+  return first + std::min(further, std::max(0.0, budget - first));
 }
 
 void require_faces(const PartInput& source, const mesh::TetMesh& mesh) {
@@ -75,8 +83,8 @@ std::optional<setup::PartSize> forecast(const PartInput& source, const std::shar
   result.order = std::max(to_tolerance ? 2 : 1, part.mesh.order.value_or(std::max(2, usual)));
   result.dofs = dofs(mesh, result.order);
   const int last = part.mesh.order ? result.order : fem::ClosedPartOptions{}.last_order;
-  result.seconds = to_tolerance ? refinement_s(part, mesh, result.order - 1, last) : solve_s(result.dofs, false);
-  if (is_solved_one_order_higher(part, result.order)) result.seconds += solve_s(dofs(mesh, result.order + 1), false);
+  result.seconds = to_tolerance ? refinement_s(part, mesh, result.order - 1, last) : solve_s(result.dofs);
+  if (is_solved_one_order_higher(part, result.order)) result.seconds += solve_s(dofs(mesh, result.order + 1));
   return result;
 }
 

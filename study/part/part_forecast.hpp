@@ -11,14 +11,13 @@
 namespace thinwall::study {
 
 /// The size of the first mesh of a part whose surface or mesh a file holds (coarsest_mesh()), on which its supports and
-/// clamps are looked up, and the time of the part, mostly within a factor of three; none for other parts. A solution of
-/// n degrees of freedom takes (n / 4e4)^1.3 times 2 s, in bulky parts, whose factors are fuller, 4 s. The number of
-/// solutions is that of the usual refinement: two orders and half the time of a third; all orders for a bulky part; and
-/// a second level of 3.5 times as many degrees of freedom where edges turn inwards. For tolerances from 0.05 on it is
-/// two orders, and a quarter of the second level. A mesh of a file is solved once more, of one order more, for its
-/// error. A part that takes all orders may take seven times as long as is said. Throws what coarsest_mesh() throws, and
-/// InputError for a support or clamp that holds no face.
-/// `first`: what first_mesh() has made of the same input, or empty: it is made.
+/// clamps are looked up, and the time of the part, mostly within a factor of two and a half; none for other parts. A
+/// solution of n degrees of freedom takes (n / 4e4)^1.3 times 1.3 s. The number of solutions is the usual one of the
+/// tolerance: two orders and 0.15 of a third from 0.05 on, 0.3 of it and 0.15 of a fourth from 0.02 on, three orders
+/// and 0.4 of the fourth from 0.01 on, all below, and there a second level of 3.5 times as many degrees of freedom
+/// where edges turn inwards; what comes after the first two within the part's time budget. A mesh of a file is solved
+/// once more, of one order more, for its error. Throws what coarsest_mesh() throws, and InputError for a support or
+/// clamp that holds no face. `first`: what first_mesh() has made of the same input, or empty: it is made.
 [[nodiscard]] std::optional<setup::PartSize> forecast(const PartInput& source,
                                                       const std::shared_ptr<const fem::FirstMesh>& first = {});
 

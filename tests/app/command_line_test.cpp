@@ -94,6 +94,26 @@ TEST_F(CommandLine, AnErrorOfAnOptionCitesTheOptionAndNoFile) {
   EXPECT_TRUE(outcome.err.starts_with("thinwall: --set part.length: \"6 kg\" is a mass")) << outcome.err;
 }
 
+TEST_F(CommandLine, AnOptionOfACommandThatStandsForAKeyIsCitedItself) {
+  const Outcome speed = call({"calibrate", plate(), "--speed", "9000"});
+  EXPECT_EQ(speed.code, 3);
+  EXPECT_TRUE(speed.err.starts_with("thinwall: --speed: a spindle speed needs its unit")) << speed.err;
+  const Outcome none = call({"calibrate", plate()});
+  EXPECT_NE(none.err.find("case.toml: calibration: there are no cuts to learn from"), std::string::npos) << none.err;
+}
+
+TEST_F(CommandLine, AValueOfAnOptionThatIsNoneIsWrongUse) {
+  for (const std::string memory : {"lots", "-1 GB", "nan GB", "1 B"}) {
+    const Outcome outcome = call({"run", plate(), "--memory", memory});
+    EXPECT_EQ(outcome.code, 2) << memory;
+    EXPECT_TRUE(outcome.err.starts_with("thinwall: --memory: ")) << outcome.err;
+  }
+  for (const std::string command : {"run", "simulate", "lobes", "reduce", "postures"}) {
+    const Outcome outcome = call({command, plate(), command == "reduce" ? "-o" : "--out", ""});
+    EXPECT_EQ(outcome.code, 2) << command << ": " << outcome.err;
+  }
+}
+
 // Every command that is shown is one: what stands behind "thinwall" in each line is tried with --help.
 TEST_F(CommandLine, TheNameAloneShowsHowToBegin) {
   const Outcome outcome = call({});

@@ -335,6 +335,9 @@ TEST_F(Fit, ReplacesAnEarlierResultAsAWhole) {
   io::write_uff(path("robot.uff"), measured);
   ASSERT_EQ(command({"fit", path("robot.uff"), "--out", path("out")}).code, 0);
   core::write_file_atomically(temporary.path / "out" / "notes.txt", "mine");
+  const std::filesystem::path of_a_killed_fit = core::partial_path(temporary.path / "out" / "fit");
+  std::filesystem::create_directory(of_a_killed_fit);
+  core::write_file_atomically(of_a_killed_fit / "modes.csv", "half of");
   ASSERT_TRUE(std::filesystem::exists(temporary.path / "out" / "modes.uff"));
   dynamics::ResponseModel cross{measured.axis, {dofs[0]}, {dofs[1]}, {}};
   for (const auto& H : measured.H) cross.H.emplace_back(H.block(0, 1, 1, 1));

@@ -82,6 +82,7 @@ TEST(BadCase, WrongTypesSayWhatIsExpected) {
   expect_problem("element_size = \"12 mm\"", "element_size = \"12 mm\"\norder = 2.5", "expected a whole number");
   expect_problem("title = \"plate\"", "title = 3", "expected a text in quotes");
   expect_problem("at = [1.0, 0.5, 0.95]", "at = [1.0, 0.5]", "list of three");
+  expect_problem("[robot]", "[robot]\npreload = \"40 N\"", "such as [\"80 N\", \"80 N\", \"80 N\"]");
   expect_problem("[damping]", "[modes]\nverify = 1\n[damping]", "expected true or false");
 }
 

@@ -48,6 +48,16 @@ TEST(Doubts, AWallThatIsTheLargestExtentIsAskedAboutWithItsUnitToo) {
       << wall[0];
 }
 
+TEST(Doubts, APatchThatIsWiderThanThePartIsAskedAbout) {
+  const auto with_patch = [](const std::string& radius) {
+    return doubts(in_mm + "\n[points.P]\nat = [1, 0.5, 0.5]\npatch_radius = \"" + radius + "\"");
+  };
+  ASSERT_EQ(with_patch("3 m").size(), 1U);
+  EXPECT_TRUE(with_patch("3 m")[0].starts_with("points.P.patch_radius is 3 m, wider than the part of 392 mm"))
+      << with_patch("3 m")[0];
+  EXPECT_TRUE(with_patch("3 mm").empty());
+}
+
 TEST(Doubts, ARobotsCoefficientOfDampingThatIsAsSmallAsARatioIsAskedAbout) {
   const auto with_robot = [](const std::string& damping) {
     return doubts(in_mm + "\n[robot]\nfrequency = \"25 Hz\"\nstiffness = \"2e6 N/m\"\ndirection = \"x\"\n" + damping +

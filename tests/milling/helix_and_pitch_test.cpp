@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "milling/direct/stability.hpp"
@@ -147,6 +149,48 @@ MillingProcess benchmark_with(std::vector<double> helices_rad) {
   process.coefficients = {6e8, 2e8, 0.0, 0.0, 0.0, 0.0};
   process.engagement = engagement_of(process.cutter, 1e-3, MillingDirection::down);
   return process;
+}
+
+/// Seven modes of a machine's range and a wide cut, several teeth at a time, at depths of a hundredth of a millimetre.
+struct ShallowCut {
+  std::vector<testing::Mode> modes;
+  MillingProcess process;
+  double rpm = 0.0;
+};
+
+ShallowCut shallow_cut(std::mt19937_64& engine) {
+  const auto uniform = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(engine); };
+  ShallowCut cut;
+  for (int i = 0; i < 7; ++i) {
+    const double angle = uniform(0.0, std::numbers::pi), hz = uniform(120.0, 2500.0);
+    const double stiffness = 1e6 * std::exp(uniform(0.0, 4.0)), omega = 2.0 * std::numbers::pi * hz;
+    cut.modes.push_back({hz, 0.002 * std::exp(uniform(0.0, 3.0)), stiffness / (omega * omega),
+                         Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0)});
+  }
+  cut.process = process_with({4, 0.012, {}, std::vector<double>(4, uniform(0.2, 0.8))}, 0.0, uniform(0.4, 2.6));
+  cut.rpm = uniform(1500.0, 12000.0);
+  return cut;
+}
+
+TEST(Helix, ShallowCutsAreNoFurtherOffThanTheyClaim) {
+  // A multiplier has its grid alone, and no derivative by the depth: it crosses one within what a depth claims.
+  std::mt19937_64 engine(1);
+  int found = 0;
+  for (int i = 0; i < 24; ++i) {
+    const ShallowCut cut = shallow_cut(engine);
+    const RelativeStructure poles = relative_structure(testing::modal_model(cut.modes), "P");
+    StabilityOptions options = sharp();
+    options.follow = 1.0;
+    const LobeRow row = limiting_depth(poles, cut.process, cut.rpm, options);
+    if (row.status != StabilityStatus::converged) continue;
+    ++found;
+    const double away = 1e-7 + row.error_estimate;
+    EXPECT_LT(multiplier_at(poles, cut.process, cut.rpm, (1.0 - away) * row.limiting_depth_m, sharp()).modulus, 1.0)
+        << i << ": " << row.limiting_depth_m << " m";
+    EXPECT_GT(multiplier_at(poles, cut.process, cut.rpm, (1.0 + away) * row.limiting_depth_m, sharp()).modulus, 1.0)
+        << i << ": " << row.limiting_depth_m << " m";
+  }
+  EXPECT_GE(found, 22);
 }
 
 TEST(Helix, SearchesUpToTheEndOfTheEdgesAndNotBeyond) {

@@ -5,9 +5,14 @@
 
 #include <gtest/gtest.h>
 
+#include <complex>
+#include <string>
+
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
+#include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/units.hpp"
 #include "study/run.hpp"
 #include "tests/case/case_text.hpp"
 #include "tests/core/temporary_folder.hpp"
@@ -90,6 +95,39 @@ TEST(LobesForecast, ModesStandInForThoseOfThePart) {
   ASSERT_TRUE(forecast);
   EXPECT_FALSE(forecast->at_least);
   EXPECT_GT(forecast->seconds, 0.0);
+}
+
+TEST(LobesForecast, LinesThatDoNotReachTheTeethAreRefusedAsTheRunDoes) {
+  // Lines to 1000 Hz about a mode at 600 Hz: two teeth pass at 200 Hz at 6000 rpm, which they hold, but at 500 Hz at
+  // 15000 rpm they do not.
+  const TemporaryFolder folder;
+  std::string lines = "frequency,real,imag\n";
+  for (double hz = 10.0; hz <= 1000.0; hz += 2.0) {
+    const double r = hz / 600.0;
+    const std::complex<double> H = 1.0 / (4e6 * std::complex<double>(1.0 - r * r, 0.02 * r));
+    lines += std::to_string(hz) + "," + core::exact_text(H.real(), core::kind::number) + "," +
+             core::exact_text(H.imag(), core::kind::number) + "\n";
+  }
+  core::write_file_atomically(folder.path / "tip.csv", lines);
+  std::string text = cutter_case();
+  const auto from = text.find("[[tool.modes]]"), to = text.find("[cutting]");
+  text.replace(from, to - from,
+               "[[tool.measured]]\nresponse = \"x\"\nforce = \"x\"\nfile = \"tip.csv\"\nquantity = \"receptance\"\n"
+               "unit = \"m/N\"\n");
+  const auto slow = forecast_lobes(parse_case(text, folder.path), 600.0);
+  ASSERT_TRUE(slow);
+  EXPECT_EQ(slow->refusal, "");
+  const Case fast = parse_case(with(text, "to = \"6000 rpm\"", "to = \"15000 rpm\""), folder.path);
+  const auto refused = forecast_lobes(fast, 600.0);
+  ASSERT_TRUE(refused);
+  EXPECT_NE(refused->refusal.find("do not hold the harmonic at 1100 Hz"), std::string::npos) << refused->refusal;
+  Kept kept;
+  try {
+    (void)run(fast, {}, kept, {});
+    FAIL();
+  } catch (const core::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("do not hold the harmonic"), std::string::npos) << error.what();
+  }
 }
 
 TEST(LobesForecast, WhatIsAskedForBesideTheChartCounts) {
