@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/fit_command.hpp"
+#include "app/fit/fit_command.hpp"
 #include "app/inspect_command.hpp"
 #include "app/lobes_input.hpp"
 #include "app/observed/calibrate_command.hpp"

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "app/fit_command.hpp"
+#include "app/fit/fit_command.hpp"
 #include "core/dense_eigenvalues.hpp"
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"

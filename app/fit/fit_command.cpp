@@ -1,4 +1,4 @@
-#include "app/fit_command.hpp"
+#include "app/fit/fit_command.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "app/doctor.hpp"
-#include "app/fit_geometry.hpp"
-#include "app/fit_sensors.hpp"
-#include "app/fit_swap.hpp"
+#include "app/fit/fit_geometry.hpp"
+#include "app/fit/fit_sensors.hpp"
+#include "app/fit/fit_swap.hpp"
 #include "core/error.hpp"
 #include "core/split.hpp"
 #include "core/units.hpp"

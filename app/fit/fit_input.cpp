@@ -1,4 +1,4 @@
-#include "app/fit_input.hpp"
+#include "app/fit/fit_input.hpp"
 
 #include <fmt/format.h>
 

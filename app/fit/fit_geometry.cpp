@@ -1,4 +1,4 @@
-#include "app/fit_geometry.hpp"
+#include "app/fit/fit_geometry.hpp"
 
 #include <cmath>
 

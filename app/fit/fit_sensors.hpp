@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/fit_input.hpp"
+#include "app/fit/fit_input.hpp"
 
 namespace thinwall::app {
 

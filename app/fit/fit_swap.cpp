@@ -1,4 +1,4 @@
-#include "app/fit_swap.hpp"
+#include "app/fit/fit_swap.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "app/fit_sensors.hpp"
+#include "app/fit/fit_sensors.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
