@@ -74,7 +74,8 @@ struct Regeneration {
 /// Adds as many contacts as D has rank, for each of them is a row and a column of the loop's gain. They see the axes as
 /// far as D does, the first of which it sees a quarter first, and change little where D does: an eigenvalue is followed
 /// by its vectors from one depth to the next. Singular vectors would change their signs, and turn freely where two
-/// teeth a quarter of a turn apart are in the cut, whose singular values are equal.
+/// teeth a quarter of a turn apart are in the cut, whose singular values are equal. Their signs follow those of the node
+/// before, so that the contacts of an arc are smooth, as eigenvectors of low frequencies are, from which searches begin.
 void add_by_rank(const Regeneration& one, int node, std::vector<EdgeContact>& contacts) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(one.D, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Index rank = (svd.singularValues().array() > 1e-13 * svd.singularValues()(0)).count();
@@ -82,8 +83,13 @@ void add_by_rank(const Regeneration& one, int node, std::vector<EdgeContact>& co
   for (Eigen::Index k = 0; k < rank; ++k) {
     Eigen::Index axis = 0;
     while (axis < 2 && seen(axis, axis) < 0.25) ++axis;
-    const Eigen::Vector3d chip = seen.col(axis).normalized();
+    Eigen::Vector3d chip = seen.col(axis).normalized();
     seen -= chip * chip.transpose();
+    const auto alike = std::ssize(contacts) - rank;  // the contact as many before, of the same place in its node
+    if (alike >= 0) {
+      const EdgeContact& before = contacts[static_cast<std::size_t>(alike)];
+      if (before.node + 1 == node && chip.dot(before.chip) < 0.0) chip = -chip;
+    }
     contacts.push_back({node, one.D * chip, chip, {}});
     for (const Moment& m : one.past)
       contacts.back().past.push_back({m.node, m.previous_period, m.weight * contacts.back().chip});
