@@ -177,6 +177,48 @@ void doubt(const std::vector<Modes>& postures, const Eigen::MatrixXd& distance, 
   }
 }
 
+/// The distances of all pairs of places, whose columns count by their ranges.
+Eigen::MatrixXd distances(const Eigen::MatrixXd& places) {
+  Eigen::MatrixXd scaled = places;
+  for (auto column : scaled.colwise()) {
+    const double range = column.maxCoeff() - column.minCoeff();
+    if (range > 0.0) column /= range;
+  }
+  Eigen::MatrixXd result(places.rows(), places.rows());
+  for (Eigen::Index i = 0; i < places.rows(); ++i) result.col(i) = (scaled.rowwise() - scaled.row(i)).rowwise().norm();
+  return result;
+}
+
+/// The names that modes have along a tree, numbered as they are met.
+Tracking follow(const std::vector<Modes>& postures, const Tree& tree) {
+  Tracking tracking;
+  tracking.label.resize(postures.size());
+  tracking.parent = tree.parent;
+  for (const Modes& modes : postures) tracking.doubtful.emplace_back(modes.size(), false);
+  for (const std::size_t at : tree.order) label(postures, at, tracking);
+  return tracking;
+}
+
+/// Doubts the names that are not those of another way to the postures. A name of that way stands for the one with which
+/// it shares most modes.
+void doubt_by(const Tracking& other, Tracking& tracking) {
+  Eigen::MatrixXi shared = Eigen::MatrixXi::Zero(other.labels, tracking.labels);
+  for (std::size_t i = 0; i < other.label.size(); ++i) {
+    for (std::size_t k = 0; k < other.label[i].size(); ++k) ++shared(other.label[i][k], tracking.label[i][k]);
+  }
+  std::vector<int> name(static_cast<std::size_t>(other.labels));
+  for (Eigen::Index l = 0; l < shared.rows(); ++l) {
+    Eigen::Index most = 0;
+    shared.row(l).maxCoeff(&most);
+    name[static_cast<std::size_t>(l)] = static_cast<int>(most);
+  }
+  for (std::size_t i = 0; i < other.label.size(); ++i) {
+    for (std::size_t k = 0; k < other.label[i].size(); ++k) {
+      if (name[static_cast<std::size_t>(other.label[i][k])] != tracking.label[i][k]) tracking.doubtful[i][k] = true;
+    }
+  }
+}
+
 void require_vectors(const std::vector<std::vector<FittedMode>>& postures) {
   for (std::size_t i = 0; i < postures.size(); ++i) {
     for (const FittedMode& mode : postures[i]) {
@@ -210,22 +252,21 @@ double unlikeness(const FittedMode& a, const FittedMode& b) {
 }
 
 Tracking track(const std::vector<std::vector<FittedMode>>& of_postures,
-               const std::vector<std::vector<FittedMode>>& turned, int neighbours) {
+               const std::vector<std::vector<FittedMode>>& turned, const Eigen::MatrixXd& places, int neighbours) {
   if (of_postures.empty()) throw core::InputError("tracking: no posture, must be at least one");
+  if (places.size() > 0 && places.rows() != std::ssize(of_postures))
+    throw core::InputError("tracking: " + std::to_string(places.rows()) + " places of " +
+                           std::to_string(of_postures.size()) + " postures; give one for each or none");
   require_vectors(of_postures);
   require_vectors(turned);
   const std::vector<Modes> postures = seen_in_frames(of_postures, turned);
   const Eigen::MatrixXd distance = differences(postures);
   Eigen::Index middle = 0;
   distance.colwise().sum().minCoeff(&middle);
-  const Tree tree = spanning_tree(distance, middle);
-  Tracking tracking;
-  tracking.label.resize(postures.size());
-  tracking.parent = tree.parent;
-  for (const Modes& modes : postures) tracking.doubtful.emplace_back(modes.size(), false);
-  for (const std::size_t at : tree.order) label(postures, at, tracking);
+  Tracking tracking = follow(postures, spanning_tree(distance, middle));
   number(postures, tracking);
   doubt(postures, distance, neighbours, tracking);
+  if (places.size() > 0) doubt_by(follow(postures, spanning_tree(distances(places), middle)), tracking);
   return tracking;
 }
 

@@ -11,7 +11,7 @@ namespace thinwall::identification {
 /// The names of modes over postures.
 struct Tracking {
   std::vector<std::vector<int>> label;      ///< of each posture and mode, from 0 on
-  std::vector<std::vector<bool>> doubtful;  ///< neighbours of the posture disagree about it
+  std::vector<std::vector<bool>> doubtful;  ///< neighbours of the posture, or another way to it, disagree
   int labels = 0;
   std::vector<int> parent;  ///< of each posture in the tree, −1 for where it begins
 };
@@ -29,9 +29,13 @@ struct Tracking {
 /// least are looked at: where more of them contradict a label than agree with it, it is doubtful. Labels are numbered
 /// by the mean frequency of their modes. `turned`: the same modes in another frame, such as that of the tip, in which
 /// those of a spindle hardly change while those of an arm do; two modes are as unlike as in the frame in which they are
-/// less. Throws InputError for no posture, modes without vectors or frames with another number of modes. Cost
-/// O(postures² modes³).
+/// less. `places`: a row a posture, whose columns count by their ranges. With them the modes are followed a second
+/// time, along the shortest tree that spans the places, and a name that is another one on this way is doubtful, too:
+/// around an exceptional point, where two modes are one, names depend on the way although every step is sure
+/// (docs/theory/postures.md). Throws InputError for no posture, modes without vectors, frames with another number of
+/// modes or another number of places. Cost O(postures² modes³).
 [[nodiscard]] Tracking track(const std::vector<std::vector<FittedMode>>& postures,
-                             const std::vector<std::vector<FittedMode>>& turned = {}, int neighbours = 6);
+                             const std::vector<std::vector<FittedMode>>& turned = {},
+                             const Eigen::MatrixXd& places = {}, int neighbours = 6);
 
 }  // namespace thinwall::identification

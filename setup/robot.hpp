@@ -79,7 +79,7 @@ struct PostureTables {
   std::vector<std::filesystem::path> files;  ///< of the tables
   std::vector<dynamics::ModalTable> tables;
   std::vector<std::vector<int>> labels;  ///< of each posture and mode: modes of one label are one mode of the robot
-  int doubtful = 0;                      ///< labels that neighbours contradict
+  int doubtful = 0;                      ///< labels that neighbours or another way contradict
   double freed_condition = 1.0;          ///< largest of TipTable, of the posture `freed_worst`
   std::string freed_worst{};
 };

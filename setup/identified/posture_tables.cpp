@@ -181,7 +181,7 @@ ModesOfPostures in_tip_frame(const TabledRobot& robot, const PostureTables& read
 void follow_modes(const TabledRobot& robot, PostureTables& read) {
   ModesOfPostures seen;
   for (std::size_t i = 0; i < read.tables.size(); ++i) seen.push_back(modes_of(read.tables[i], read.files[i].string()));
-  const identification::Tracking tracking = identification::track(seen, in_tip_frame(robot, read, seen));
+  const identification::Tracking tracking = identification::track(seen, in_tip_frame(robot, read, seen), read.places);
   read.labels = tracking.label;
   for (const std::vector<bool>& of : tracking.doubtful) read.doubtful += static_cast<int>(std::ranges::count(of, true));
 }

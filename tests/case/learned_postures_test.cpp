@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "case/checks/doubts.hpp"
 #include "case/numbers.hpp"
@@ -19,6 +20,7 @@
 #include "setup/robot_tip.hpp"
 #include "setup/simulation_faults.hpp"
 #include "study/kept/kept_identified.hpp"
+#include "tests/case/milling_robot.hpp"
 #include "tests/core/temporary_folder.hpp"
 #include "tests/robot/modes_of_matrices.hpp"
 
@@ -86,6 +88,16 @@ TEST(LearnedPostures, FollowModesThroughACrossingToAPostureBetween) {
     for (const dynamics::ModalTableRow& mode : modes(source)->rows)
       EXPECT_NEAR(mode.damping_ratio, ClosedForm::damping(u), 2e-4);
   }
+}
+
+/// Neighbours agree about all names of cases/posture-map; the way from place to place gives others at one posture.
+TEST(LearnedPostures, DoubtNamesThatDependOnTheWay) {
+  const tests::milling_robot::FewPostures all(56);
+  const std::string text = all.text(tests::milling_robot::test_postures().front(), "");
+  const std::vector<std::string> doubts = doubts_about(parse_case(text, all.folder.path));
+  EXPECT_TRUE(std::ranges::any_of(doubts, [](const std::string& doubt) {
+    return doubt.find("modes could not be followed over the postures without contradiction") != std::string::npos;
+  }));
 }
 
 TEST(LearnedPostures, BeyondTheirHullAreDoubted) {

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -104,6 +106,46 @@ TEST(Tracking, FollowsModesThatTurnWithTheTip) {
   EXPECT_NE(plain.label[0], plain.label[1]);
   EXPECT_EQ(framed.label[0], framed.label[1]);
   EXPECT_THROW((void)track(world, {seen(0.0)}), core::InputError);
+}
+
+/// The modes of the complex symmetric matrix [x + i, y; y, −x − i], whose eigenvalues ±√((x + i)² + y²) are one at
+/// x = 0, y = 1.
+std::vector<FittedMode> modes_near_exceptional_point(double x, double y) {
+  const std::complex<double> a(x, 1.0), root = std::sqrt(a * a + y * y);
+  std::vector<FittedMode> modes;
+  for (const std::complex<double> eigenvalue : {root, -root}) {
+    FittedMode m = mode(50.0 * (1.0 + 0.1 * eigenvalue.real()), 0.0);
+    m.damping_ratio = 0.02 * std::exp(0.1 * eigenvalue.imag());
+    m.left = m.right = Eigen::Vector2cd(y, eigenvalue - a).normalized();
+    modes.push_back(m);
+  }
+  std::ranges::sort(modes, {}, &FittedMode::frequency_hz);
+  return modes;
+}
+
+/// Postures around the exceptional point, of which the ring passes closely below. Once around, the modes have each
+/// other's names. Where they differ most, below, the names break along the tree of least difference, and where the
+/// postures lie farthest apart, above, along the places: on one side of the ring they depend on the way.
+TEST(Tracking, DoubtsNamesThatDependOnTheWay) {
+  std::vector<std::vector<FittedMode>> postures;
+  Eigen::MatrixXd places(23, 2);
+  for (int k = 0, i = 0; k < 24; ++k) {
+    if (k == 5) continue;  // the gap, above
+    const double angle = (k + 0.5) * std::numbers::pi / 12.0;
+    places.row(i) << 0.5 * std::cos(angle), 1.4 + 0.5 * std::sin(angle);
+    postures.push_back(modes_near_exceptional_point(places(i, 0), places(i, 1)));
+    ++i;
+  }
+  const Tracking without = track(postures), with = track(postures, {}, places);
+  EXPECT_EQ(with.label, without.label);
+  for (std::size_t i = 0; i < postures.size(); ++i) {
+    const bool right = places(static_cast<Eigen::Index>(i), 0) > 0.0;
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_FALSE(without.doubtful[i][k]) << i;
+      EXPECT_EQ(with.doubtful[i][k], right) << i;
+    }
+  }
+  EXPECT_THROW((void)track(postures, {}, places.topRows(3)), core::InputError);
 }
 
 TEST(Tracking, RefusesModesWithoutVectors) {
