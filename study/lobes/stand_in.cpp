@@ -80,8 +80,8 @@ setup::Setup before_identification(setup::Setup source) {
   if (setup::awaits_learning(source)) {
     auto& robot = std::get<setup::TabledRobot>(source.robot->model);
     robot = setup::as_first_posture(robot);
-    setup::give_modes_to_swap(source, source);
   }
+  setup::give_modes_to_swap(source, source);
   return source;
 }
 
