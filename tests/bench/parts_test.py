@@ -153,6 +153,7 @@ class Outcomes(unittest.TestCase):
         self.assertEqual(outcomes.seconds_to_first_answer(log), 5.0)
         self.assertIsNone(outcomes.seconds_to_first_answer(log[:2]))
         self.assertIsNone(outcomes.seconds_to_first_answer([]))
+        self.assertEqual(outcomes.seconds_to_first_answer(["", *log]), 5.0)
         late = {"outcome": outcomes.MET, "wall_s": 11.0, "first_answer_s": None, "rigid_motions": 6}
         self.assertFalse({words: holds for words, _, _, holds in outcomes.summary_of([late])}["first answers within 10 s"])
 
