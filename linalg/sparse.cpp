@@ -42,6 +42,7 @@ SparseMatrix combine(double a, const SparseMatrix& A, double b, const SparseMatr
     return C;
   }
   // Room for all entries at once: a storage that grows, as that of Eigen's sum does, is copied and zeroed many times.
+  // What the patterns have in common is room that is never touched, and no memory stands behind it.
   SparseMatrix C(A.rows(), A.cols());
   C.reserve(A.nonZeros() + B.nonZeros());
   for (Eigen::Index j = 0; j < A.cols(); ++j) {
