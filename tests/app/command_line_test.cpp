@@ -108,9 +108,22 @@ TEST_F(CommandLine, AValueOfAnOptionThatIsNoneIsWrongUse) {
     EXPECT_EQ(outcome.code, 2) << memory;
     EXPECT_TRUE(outcome.err.starts_with("thinwall: --memory: ")) << outcome.err;
   }
-  for (const std::string command : {"run", "simulate", "lobes", "reduce", "postures"}) {
-    const Outcome outcome = call({command, plate(), command == "reduce" ? "-o" : "--out", ""});
-    EXPECT_EQ(outcome.code, 2) << command << ": " << outcome.err;
+}
+
+TEST_F(CommandLine, AnEmptyNameOfAnOutputIsWrongUse) {
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{{"run", plate()},
+                                                                                     {"simulate", plate()},
+                                                                                     {"lobes", plate()},
+                                                                                     {"reduce", plate()},
+                                                                                     {"postures", plate()},
+                                                                                     {"sweep", plate(), "a=1, 2"},
+                                                                                     {"merge", out()},
+                                                                                     {"report", out()}}) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), {"--out", ""});
+    const Outcome outcome = call(all);
+    EXPECT_EQ(outcome.code, 2) << words.front() << ": " << outcome.err;
+    EXPECT_TRUE(outcome.err.starts_with("thinwall: --out: the name is empty")) << words.front() << ": " << outcome.err;
   }
 }
 
