@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 #include <thread>
 
@@ -86,6 +87,19 @@ TEST_F(CommandLine, WrongUseEndsWithTwoAndOneLine) {
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
     EXPECT_EQ(outcome.out, "");
   }
+}
+
+TEST_F(CommandLine, CheckTellsTheLeastTimeOfAPartThatMeetsNoTolerance) {
+  const std::string wall = std::string(THINWALL_SOURCE_DIR) + "/cases/cantilever-wall";
+  const auto told = [&](const std::string& radius) {
+    return call({"check", wall, "--set", "points.P.patch_radius=" + radius, "--set", "lobes.count=3", "--set",
+                 "lobes.most_added=0"})
+        .out;
+  };
+  EXPECT_EQ(told("1.5 mm").find("over"), std::string::npos) << told("1.5 mm");
+  const std::string unmet = told("0 mm");
+  EXPECT_TRUE(std::regex_search(unmet, std::regex("over [0-9]+ s for mesh, modes and reduction"))) << unmet;
+  EXPECT_TRUE(std::regex_search(unmet, std::regex("; over [0-9]+ s in all"))) << unmet;
 }
 
 TEST_F(CommandLine, AnErrorOfAnOptionCitesTheOptionAndNoFile) {
