@@ -78,7 +78,7 @@ std::shared_ptr<const fem::FirstMesh> tell_of_first_run(const cases::Case& sourc
   const bool known = std::filesystem::exists(cache / "lobes.bin") || std::filesystem::exists(cache / "simulation.bin");
   if ((!options.fresh && known) || !options.parts.empty()) return {};
   on_stage("forecast");
-  return tell_of_long_run(source);
+  return tell_of_long_run(source, options.points);
 }
 
 report::Summary summary_of(const cases::Case& source, const study::Results& results) {

@@ -178,7 +178,7 @@ void tell_size(const cases::Case& source, const setup::PartSize& size, std::ostr
                 : "size and order from the tolerance of " + rounded(source.part->mesh.tolerance))
         << '\n';
   out << "  DOFs      about " << rounded(size.dofs) << '\n'
-      << "  time      " << about(size.seconds) << " for mesh, modes and reduction on two cores\n";
+      << "  time      " << about(size.seconds, size.at_least) << " for mesh, modes and reduction on two cores\n";
 }
 
 void tell_simulation(const study::SimulationForecast& time, std::ostream& out) {
@@ -196,7 +196,7 @@ void tell_lobes(const setup::LobesOptions& lobes, const Forecast& time, std::ost
   out << "  lobes     " << lobes.count << " speeds, and up to " << setup::most_added(lobes)
       << " between them where the line needs them\n";
   if (!time.lobes) return;
-  out << "  time      " << about(time.lobes_s(), time.at_least()) << " for some "
+  out << "  time      " << about(time.lobes_s(), time.lobes_at_least()) << " for some "
       << core::readable_text(time.lobes->rows.of_structure + time.lobes->rows.of_lines, core::kind::number)
       << " rows of all charts on " << core::thread_count() << (core::thread_count() == 1 ? " thread" : " threads");
   if (time.part || time.identification_s > 0.0) out << "; " << about(time.whole_s(), time.at_least()) << " in all";

@@ -5,6 +5,7 @@
 #include "app/completion.hpp"
 #include "app/doctor.hpp"
 #include "app/memory_option.hpp"
+#include "app/output_name.hpp"
 #include "app/ranks_option.hpp"
 #include "case/templates.hpp"
 
@@ -23,11 +24,6 @@ void add_overrides(CLI::App& command, Arguments& arguments) {
   command.add_option("--set", arguments.overrides, "a value put over the case: --set part.element_size=\"8 mm\"")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-}
-
-/// An empty name would stand for the default, as where a variable of a script is not set.
-std::string has_a_name(const std::string& folder) {
-  return folder.empty() ? "the name is empty; name a folder, or leave the option out" : "";
 }
 
 void add_result_folder(CLI::App& command, Arguments& arguments) {
@@ -395,7 +391,9 @@ void describe(CLI::App& app, Arguments& arguments) {
       ->type_name("FILE");
   auto* report_command = app.add_subcommand("report", "make report.html of a result folder anew");
   report_command->add_option("RESULTS", arguments.folder, "result folder")->type_name("DIR")->required();
-  report_command->add_option("--out", arguments.out, "the page (default: RESULTS/report.html)")->type_name("FILE");
+  report_command->add_option("--out", arguments.out, "the page (default: RESULTS/report.html)")
+      ->type_name("FILE")
+      ->check(has_a_name);
   auto* animate_command = app.add_subcommand("animate", "a mode shape in sixteen phases, which ParaView plays at once");
   animate_command->add_option("RESULTS", arguments.folder, "result folder")->type_name("DIR")->required();
   animate_command->add_option("--mode", arguments.phases.mode, "its number (default: 1)");

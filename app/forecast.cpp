@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <tuple>
 
 #include "app/stage_display.hpp"
 #include "case/checks/mesh_size.hpp"
 #include "core/error.hpp"
+#include "setup/part_geometry.hpp"
 #include "study/identification_forecast.hpp"
 #include "study/part/discretisation.hpp"
 #include "study/part/part_forecast.hpp"
@@ -20,12 +22,13 @@ namespace {
 setup::PartSize size_of(const cases::Case& source, const study::PartInput& part,
                         const std::shared_ptr<const fem::FirstMesh>& mesh) {
   const auto first = study::forecast(part, mesh);
-  return first ? *first : cases::estimate_size(source);
+  setup::PartSize size = first ? *first : cases::estimate_size(source);
+  size.at_least = !setup::unreachable_tolerances(source).empty();
+  return size;
 }
 
-}  // namespace
-
-Forecast forecast(const cases::Case& source) {
+/// forecast(), with a refusal of the tool's lines left in it.
+Forecast unrefused_forecast(const cases::Case& source, const std::vector<milling::OperatingPoint>& points) {
   Forecast result;
   result.identification_s = study::forecast_identification(source);
   if (source.part) {
@@ -34,9 +37,33 @@ Forecast forecast(const cases::Case& source) {
     result.first_mesh = study::first_mesh(part);
     result.part = size_of(source, part, result.first_mesh);
   }
-  result.lobes = study::forecast_lobes(source);
-  if (result.lobes && !result.lobes->refusal.empty()) throw core::InputError(result.lobes->refusal);
-  result.simulation = study::forecast_simulation(source);
+  result.lobes = study::forecast_lobes(source, study::forecast_limit_s, points);
+  if (!result.refused()) result.simulation = study::forecast_simulation(source);
+  return result;
+}
+
+/// Throws the refusal of the tool's lines, if there is one.
+void throw_refusal(const Forecast& forecast) {
+  if (forecast.refused()) throw core::InputError(forecast.lobes->refusal);
+}
+
+/// The forecast of a run; none where it cannot be made, of which the run will tell.
+std::optional<Forecast> possible_forecast(const cases::Case& source,
+                                          const std::vector<milling::OperatingPoint>& points) {
+  try {
+    return unrefused_forecast(source, points);
+  } catch (const core::Interrupted&) {
+    throw;
+  } catch (const core::Error&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+Forecast forecast(const cases::Case& source) {
+  Forecast result = unrefused_forecast(source, {});
+  throw_refusal(result);
   return result;
 }
 
@@ -48,8 +75,8 @@ std::string text(const Forecast& forecast) {
   const std::string line = "this takes " + about(forecast.whole_s(), forecast.at_least());
   const std::array<std::tuple<const char*, double, bool>, 4> pieces{
       {{"the identification ", forecast.identification_s, false},
-       {"the part ", forecast.part_s(), false},
-       {"the lobes ", forecast.lobes_s(), forecast.at_least()},
+       {"the part ", forecast.part_s(), forecast.part_at_least()},
+       {"the lobes ", forecast.lobes_s(), forecast.lobes_at_least()},
        {"the simulation ", forecast.simulation_s(), false}}};
   std::string list;
   int told = 0;
@@ -60,17 +87,14 @@ std::string text(const Forecast& forecast) {
   return told > 1 ? line + list : line;
 }
 
-std::shared_ptr<const fem::FirstMesh> tell_of_long_run(const cases::Case& source) {
+std::shared_ptr<const fem::FirstMesh> tell_of_long_run(const cases::Case& source,
+                                                       const std::vector<milling::OperatingPoint>& points) {
   constexpr double long_s = 10.0;
-  try {
-    const Forecast time = forecast(source);
-    if (time.at_least() || time.whole_s() >= long_s) spdlog::info("{}", text(time));
-    return time.first_mesh;
-  } catch (const core::Interrupted&) {
-    throw;
-  } catch (const core::Error&) {
-    return {};
-  }
+  const std::optional<Forecast> time = possible_forecast(source, points);
+  if (!time) return {};
+  throw_refusal(*time);
+  if (time->at_least() || time->whole_s() >= long_s) spdlog::info("{}", text(*time));
+  return time->first_mesh;
 }
 
 }  // namespace thinwall::app

@@ -4,9 +4,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "case/machining_case.hpp"
 #include "fem/closed_part.hpp"
+#include "milling/chart/operating_point.hpp"
 #include "setup/part_size.hpp"
 #include "study/lobes/lobes_forecast.hpp"
 #include "study/simulation/simulation_forecast.hpp"
@@ -26,7 +28,11 @@ struct Forecast {
   [[nodiscard]] double simulation_s() const { return simulation ? simulation->seconds : 0.0; }
   [[nodiscard]] double whole_s() const { return identification_s + part_s() + lobes_s() + simulation_s(); }
   /// True if it is known only that the run takes as long or longer.
-  [[nodiscard]] bool at_least() const { return lobes && lobes->at_least; }
+  [[nodiscard]] bool at_least() const { return part_at_least() || lobes_at_least(); }
+  [[nodiscard]] bool part_at_least() const { return part && part->at_least; }
+  [[nodiscard]] bool lobes_at_least() const { return lobes && lobes->at_least; }
+  /// True if the tool's lines do not reach, so that there will be no run.
+  [[nodiscard]] bool refused() const { return lobes && !lobes->refusal.empty(); }
 };
 
 /// The forecast of a case: the part from its first mesh where a file holds it (study::forecast()), else by
@@ -41,9 +47,11 @@ struct Forecast {
 /// A line that says the whole time and what it consists of.
 [[nodiscard]] std::string text(const Forecast& forecast);
 
-/// Logs that line for a case that takes ten seconds or longer, or whose rows take too long to be timed. What cannot be
-/// foreseen is an error of the run, which tells it where it is met. Returns the first mesh of the part for the run, if
-/// there is one. Throws Interrupted. Cost: as forecast().
-std::shared_ptr<const fem::FirstMesh> tell_of_long_run(const cases::Case& source);
+/// Logs that line for a case that takes ten seconds or longer, or of which only the least is known: rows that take too
+/// long to be timed, a tolerance that is not met. What cannot be foreseen is an error of the run, which tells it where
+/// it is met. Returns the first mesh of the part for the run, if there is one. Throws Interrupted, and InputError for
+/// lines that do not reach, at the `points` of which the charts are asked too. Cost: as forecast().
+std::shared_ptr<const fem::FirstMesh> tell_of_long_run(const cases::Case& source,
+                                                       const std::vector<milling::OperatingPoint>& points = {});
 
 }  // namespace thinwall::app

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 
 namespace thinwall::core {
 
@@ -19,6 +20,18 @@ MessageListener set_message_listener(MessageListener listener);
 
 /// Sends one message to the listener. An exception of the listener passes through to the caller.
 void tell(MessageLevel level, const std::string& text);
+
+/// Drops every message of the process while the object lives, as of what a forecast tries out and the run says again.
+class Silence {
+ public:
+  Silence() : before_(set_message_listener({})) {}
+  ~Silence() { set_message_listener(std::move(before_)); }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  MessageListener before_;
+};
 
 /// Sends a warning: a doubt about a result that the user should read.
 inline void warn(const std::string& text) {

@@ -9,6 +9,7 @@ struct PartSize {
   double elements = 0.0;
   double dofs = 0.0;  ///< before supports
   double seconds = 0.0;
+  bool at_least = false;  ///< no tolerance is met, so that it takes as long or longer (unreachable_tolerances())
 };
 
 }  // namespace thinwall::setup

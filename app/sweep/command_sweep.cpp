@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "app/memory_option.hpp"
+#include "app/output_name.hpp"
 #include "core/parallel.hpp"
 
 namespace thinwall::app {
@@ -42,7 +43,9 @@ void describe_sweep(CLI::App& app, SweepRequest& sweep, MergeRequest& merge) {
   command->add_option("--set", sweep.overrides, "a value put over the case at every point")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  command->add_option("--out", sweep.out, "folder of the sweep (default: results/<case>-sweep)")->type_name("DIR");
+  command->add_option("--out", sweep.out, "folder of the sweep (default: results/<case>-sweep)")
+      ->type_name("DIR")
+      ->check(has_a_name);
   auto* shard = command->add_option("--shard", sweep.shard, "every n-th point from the i-th on, for job arrays")
                     ->type_name("I/N");
   auto* fresh = command->add_flag("--fresh", sweep.fresh, "compute the points that are there already, too");
@@ -69,7 +72,10 @@ void describe_sweep(CLI::App& app, SweepRequest& sweep, MergeRequest& merge) {
       ->type_name("auto|always|never");
   auto* merge_command = app.add_subcommand("merge", "the table of a sweep from the folders of its shards");
   merge_command->add_option("FOLDERS", merge.folders, "folders of the sweep's shards")->type_name("DIR")->required();
-  merge_command->add_option("-o,--out", merge.out, "folder for the table")->type_name("DIR")->required();
+  merge_command->add_option("-o,--out", merge.out, "folder for the table")
+      ->type_name("DIR")
+      ->required()
+      ->check(has_a_name);
 }
 
 }  // namespace thinwall::app

@@ -100,4 +100,8 @@ struct FittedStructure {
 /// the harmonic that is missing and the range that would do.
 void require_range(const SampledReceptance& receptance, const MillingProcess& process, double spindle_speed_rpm);
 
+/// The same at every one of the speeds, for the first that lacks it. Cost: that of one speed.
+void require_range(const SampledReceptance& receptance, const MillingProcess& process,
+                   const std::vector<double>& spindle_speeds_rpm);
+
 }  // namespace thinwall::milling

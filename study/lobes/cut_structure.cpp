@@ -92,11 +92,16 @@ milling::SampledReceptance fitted_on_its_lines(const setup::Tool& tool) {
   return tip;
 }
 
-/// The fit, with a warning where the lines are those of no passive structure.
-milling::FittedStructure fitted(const milling::SampledReceptance& tip,
+/// What the messages call the owner of tip_lines().
+std::string owner_of_tip(const setup::Tool& tool) {
+  return tool.swap ? "the swapped tool's" : "the tool's";
+}
+
+/// The fit of lines in tool axes, with a warning where the lines are those of no passive structure.
+milling::FittedStructure fitted(milling::SampledReceptance lines,
                                 const std::optional<milling::RelativeStructure>& poles, const milling::ToolFrame& frame,
                                 const std::string& whose) {
-  milling::FittedStructure fit = milling::fitted_structure({in_tool_axes(tip, frame), poles}, frame);
+  milling::FittedStructure fit = milling::fitted_structure({std::move(lines), poles}, frame);
   if (const auto pole = fit.growing) {
     core::warn(fmt::format(
         "{} lines have a motion at {:.1f} Hz that grows by itself (damping {:.2g} %), which no passive structure has; "
@@ -169,7 +174,15 @@ milling::FittedStructure sampled_structure(const setup::CutSetup& source, const 
   } else if (has_poles(*source.tool)) {
     tool = tool_modes(*source.tool);
   }
-  return fitted(felt, tool, frame, "the supported part's");
+  return fitted(in_tool_axes(std::move(felt), frame), tool, frame, "the supported part's");
+}
+
+milling::SampledReceptance tip_lines(const setup::CutSetup& source, const milling::ToolFrame& frame) {
+  if (source.tool->swap) return in_tool_axes(swapped(source), frame);
+  const dynamics::FrequencyAxis& lines = setup::receptance_of(source.tool->measured.front()).axis;
+  milling::SampledReceptance tip = measured_tip(source.tool->measured, lines);
+  warn_if_implausible(tip, owner_of_tip(*source.tool));
+  return in_tool_axes(std::move(tip), frame);
 }
 
 CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
@@ -179,13 +192,8 @@ CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFra
 
 CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
                            const std::optional<milling::RelativeStructure>& modal) {
-  if (source.tool->swap) return fitted(swapped(source), modal, frame, "the swapped tool's");
-  if (setup::known_by_lines(*source.tool)) {
-    const dynamics::FrequencyAxis& lines = setup::receptance_of(source.tool->measured.front()).axis;
-    milling::SampledReceptance tip = measured_tip(source.tool->measured, lines);
-    warn_if_implausible(tip, "the tool's");
-    return fitted(tip, modal, frame, "the tool's");
-  }
+  if (setup::known_by_lines(*source.tool))
+    return fitted(tip_lines(source, frame), modal, frame, owner_of_tip(*source.tool));
   if (!modal)
     throw core::InputError(
         "lobes need something that moves: a part, tool.modes, tool.measured, or a robot that carries the tool");

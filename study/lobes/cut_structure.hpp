@@ -55,6 +55,10 @@ using CutStructure = std::variant<milling::RelativeStructure, milling::FittedStr
 [[nodiscard]] CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
                                          const std::optional<milling::RelativeStructure>& modal);
 
+/// The lines of the tip of a tool that setup::known_by_lines(), tool axes, as cut_structure() fits them, with its
+/// warnings and errors but those of the fit.
+[[nodiscard]] milling::SampledReceptance tip_lines(const setup::CutSetup& source, const milling::ToolFrame& frame);
+
 /// The receptance of a measured or swapped tool's tip as its fitted poles alone give it, part axes, on the lines of the
 /// fit; those of the part are left out. None of a tool that is known by its modes or rigid. Cost O(lines poles).
 [[nodiscard]] std::optional<milling::SampledReceptance> synthesised_tip(const setup::CutSetup& source,

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/messages.hpp"
 #include "core/parallel.hpp"
 #include "core/time_limit.hpp"
 #include "milling/chart/robust_lobes.hpp"
@@ -88,14 +90,17 @@ Took mean_row(const std::function<void(double rpm)>& row, double from_rpm, doubl
   return mean;
 }
 
-/// What milling::require_range() has against measured lines at the ends of the chart; empty if nothing.
-std::string refusal_of_lines(const setup::Setup& source) {
+/// What milling::require_range() has against the tool's lines at the speeds that the chart certainly has, the highest
+/// first, for it needs the widest range; empty if nothing.
+std::string refusal_of_lines(const setup::Setup& source, const std::vector<milling::OperatingPoint>& points) {
   if (!setup::known_by_lines(*source.tool)) return "";
   const milling::MillingProcess process = setup::milling_process(source);
-  const CutStructure tip = cut_structure(source, process.frame, std::nullopt);
+  const milling::SampledReceptance lines = tip_lines(source, process.frame);
+  std::vector<double> speeds = even_speeds(*source.lobes);
+  std::ranges::copy(asked_speeds(source, points), std::back_inserter(speeds));
+  std::ranges::sort(speeds, std::greater());
   try {
-    for (const double rpm : {source.lobes->to_rpm, source.lobes->from_rpm})
-      milling::require_range(std::get<milling::FittedStructure>(tip).lines.samples, process, rpm);
+    milling::require_range(lines, process, speeds);
   } catch (const core::InputError& error) {
     return error.what();
   }
@@ -152,10 +157,12 @@ ExpectedRows expected_rows(const setup::Setup& source) {
   return setup::is_measured(*source.robot) ? ExpectedRows{chart, speeds} : ExpectedRows{2.0 * chart, 0.0};
 }
 
-std::optional<LobesForecast> forecast_lobes(const setup::Setup& source, double limit_s) {
+std::optional<LobesForecast> forecast_lobes(const setup::Setup& source, double limit_s,
+                                            const std::vector<milling::OperatingPoint>& points) {
   if (!source.lobes || !source.cutting || !source.tool) return std::nullopt;
+  const core::Silence forecast_only;
   try {
-    LobesForecast result{expected_rows(source), 0.0, false, refusal_of_lines(source)};
+    LobesForecast result{expected_rows(source), 0.0, false, refusal_of_lines(source, points)};
     if (!result.refusal.empty()) return result;
     const Took of_poles = time_of_charts(source, structure_like, result.rows.of_structure, limit_s);
     const Took of_lines = time_of_charts(source, lines_like, result.rows.of_lines, limit_s);

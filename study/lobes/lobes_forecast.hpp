@@ -4,7 +4,9 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "milling/chart/operating_point.hpp"
 #include "setup/machining_setup.hpp"
 
 namespace thinwall::study {
@@ -20,7 +22,7 @@ struct LobesForecast {
   ExpectedRows rows;
   double seconds = 0.0;
   bool at_least = false;     ///< a row was given up: all of them take as long or longer
-  std::string refusal = {};  ///< milling::require_range()'s, of measured lines at the ends of the chart; empty: none
+  std::string refusal = {};  ///< milling::require_range()'s, of the tool's lines; empty: none
 };
 
 /// The rows of all charts: with and without the robot, along a path, of methods to compare with, of a map, and those
@@ -28,13 +30,18 @@ struct LobesForecast {
 /// at least, as far as they may be added. The set-up must have lobes.
 [[nodiscard]] ExpectedRows expected_rows(const setup::Setup& source);
 
+/// The seconds that a forecast of charts may take as a rule.
+inline constexpr double forecast_limit_s = 1.5;
+
 /// The time of expected_rows(), from the time of a row, which is that of its method at the first speed, the last and
 /// between them, and of the fit of lines. What is known is taken as it is: cut, tool, and the lines of a measured tip.
 /// The part's modes, which are not known yet, have the density of those of a plate of its extent and thickness (Cremer,
 /// Heckl & Petersson 2005) and its mass. It is right within a factor of three as a rule. Empty where there is no chart,
-/// or where no row can be computed, which the run will tell; `refusal` alone is set where measured lines do not reach.
+/// or where no row can be computed, which the run will tell; `refusal` alone is set where the tool's lines do not reach
+/// at an even speed of the chart, at the case's own or at one of the `points`. Messages are dropped: the run says them.
 /// Throws Interrupted. Cost: that of three rows and a fit, `limit_s` at most, or twice that where lines of the
 /// supported part are fitted, but for steps that do not look at interrupts.
-[[nodiscard]] std::optional<LobesForecast> forecast_lobes(const setup::Setup& source, double limit_s = 1.5);
+[[nodiscard]] std::optional<LobesForecast> forecast_lobes(const setup::Setup& source, double limit_s = forecast_limit_s,
+                                                          const std::vector<milling::OperatingPoint>& points = {});
 
 }  // namespace thinwall::study

@@ -62,10 +62,6 @@ struct Chart {
   }
 };
 
-std::vector<double> even_speeds(const setup::LobesOptions& wanted) {
-  return milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.count);
-}
-
 std::vector<double> speeds_of(const milling::Lobes& lobes) {
   std::vector<double> speeds(lobes.rows.size());
   std::ranges::transform(lobes.rows, speeds.begin(), &milling::LobeRow::spindle_speed_rpm);
@@ -76,12 +72,9 @@ std::vector<double> speeds_of(const milling::Lobes& lobes) {
 milling::Lobes refined_chart(const setup::CutSetup& source, const Chart& chart,
                              const std::vector<milling::OperatingPoint>& points, const milling::KeptRows& kept) {
   const setup::LobesOptions& wanted = *source.lobes;
-  std::vector<double> asked;
-  if (const auto rpm = source.cutting->spindle_speed_rpm) asked.push_back(*rpm);
-  for (const auto& point : points) asked.push_back(point.spindle_speed_rpm);
   return milling::refined(chart.by(wanted.method, even_speeds(wanted), kept), chart.row_at(wanted.method),
                           chart.process, chart.options.stability, {wanted.line_tolerance, setup::most_added(wanted)},
-                          asked, kept);
+                          asked_speeds(source, points), kept);
 }
 
 /// Errors of the limiting depths, and at the case's own speed; the rows share out among the threads.
@@ -248,6 +241,17 @@ void add_pockets(const setup::CutSetup& source, const milling::MillingProcess& p
 }
 
 }  // namespace
+
+std::vector<double> even_speeds(const setup::LobesOptions& wanted) {
+  return milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.count);
+}
+
+std::vector<double> asked_speeds(const setup::CutSetup& source, const std::vector<milling::OperatingPoint>& points) {
+  std::vector<double> asked;
+  if (const auto rpm = source.cutting->spindle_speed_rpm) asked.push_back(*rpm);
+  for (const auto& point : points) asked.push_back(point.spindle_speed_rpm);
+  return asked;
+}
 
 milling::StabilityOptions stability_options(const setup::LobesOptions& wanted) {
   milling::StabilityOptions options;

@@ -11,6 +11,13 @@
 
 namespace thinwall::study {
 
+/// The speeds that a chart has before its line is refined.
+[[nodiscard]] std::vector<double> even_speeds(const setup::LobesOptions& wanted);
+
+/// The case's own speed, if it has one, and those of the points: a chart answers at them too.
+[[nodiscard]] std::vector<double> asked_speeds(const setup::CutSetup& source,
+                                               const std::vector<milling::OperatingPoint>& points);
+
 /// Options of the search at a speed, from [lobes].
 [[nodiscard]] milling::StabilityOptions stability_options(const setup::LobesOptions& wanted);
 

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 #include <thread>
 
@@ -88,6 +89,19 @@ TEST_F(CommandLine, WrongUseEndsWithTwoAndOneLine) {
   }
 }
 
+TEST_F(CommandLine, CheckTellsTheLeastTimeOfAPartThatMeetsNoTolerance) {
+  const std::string wall = std::string(THINWALL_SOURCE_DIR) + "/cases/cantilever-wall";
+  const auto told = [&](const std::string& radius) {
+    return call({"check", wall, "--set", "points.P.patch_radius=" + radius, "--set", "lobes.count=3", "--set",
+                 "lobes.most_added=0"})
+        .out;
+  };
+  EXPECT_EQ(told("1.5 mm").find("over"), std::string::npos) << told("1.5 mm");
+  const std::string unmet = told("0 mm");
+  EXPECT_TRUE(std::regex_search(unmet, std::regex("over [0-9]+ s for mesh, modes and reduction"))) << unmet;
+  EXPECT_TRUE(std::regex_search(unmet, std::regex("; over [0-9]+ s in all"))) << unmet;
+}
+
 TEST_F(CommandLine, AnErrorOfAnOptionCitesTheOptionAndNoFile) {
   const Outcome outcome = call({"check", plate(), "--set", "part.length=6 kg"});
   EXPECT_EQ(outcome.code, 3);
@@ -108,9 +122,22 @@ TEST_F(CommandLine, AValueOfAnOptionThatIsNoneIsWrongUse) {
     EXPECT_EQ(outcome.code, 2) << memory;
     EXPECT_TRUE(outcome.err.starts_with("thinwall: --memory: ")) << outcome.err;
   }
-  for (const std::string command : {"run", "simulate", "lobes", "reduce", "postures"}) {
-    const Outcome outcome = call({command, plate(), command == "reduce" ? "-o" : "--out", ""});
-    EXPECT_EQ(outcome.code, 2) << command << ": " << outcome.err;
+}
+
+TEST_F(CommandLine, AnEmptyNameOfAnOutputIsWrongUse) {
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{{"run", plate()},
+                                                                                     {"simulate", plate()},
+                                                                                     {"lobes", plate()},
+                                                                                     {"reduce", plate()},
+                                                                                     {"postures", plate()},
+                                                                                     {"sweep", plate(), "a=1, 2"},
+                                                                                     {"merge", out()},
+                                                                                     {"report", out()}}) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), {"--out", ""});
+    const Outcome outcome = call(all);
+    EXPECT_EQ(outcome.code, 2) << words.front() << ": " << outcome.err;
+    EXPECT_TRUE(outcome.err.starts_with("thinwall: --out: the name is empty")) << words.front() << ": " << outcome.err;
   }
 }
 

@@ -149,6 +149,9 @@ TEST(Forecast, SaysTheWholeTimeAndItsTwoParts) {
   EXPECT_EQ(
       text({0.0, part(0.2), study::LobesForecast{{}, 90.0, false}, study::SimulationForecast{2.0, 0.0, 1200.0, 29.0}}),
       "this takes about 2 min: the lobes about 90 s, the simulation about 29 s");
+  const setup::PartSize unmet{2, 1.0, 1.0, 3.0, true};
+  EXPECT_EQ(text({0.0, unmet, study::LobesForecast{{}, 90.0, false}, {}}),
+            "this takes over 93 s: the part over 3 s, the lobes about 90 s");
   EXPECT_EQ(text({12.0, {}, {}, {}}).find("this takes about 12 s"), 0U) << text({12.0, {}, {}, {}});
 }
 

@@ -6,11 +6,14 @@
 #include <gtest/gtest.h>
 
 #include <complex>
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/messages.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "study/run.hpp"
@@ -97,37 +100,81 @@ TEST(LobesForecast, ModesStandInForThoseOfThePart) {
   EXPECT_GT(forecast->seconds, 0.0);
 }
 
+/// A case whose tool is known by lines about a mode at so many Hz, in `folder`.
+std::string case_with_lines(const std::filesystem::path& folder, double from_hz, double to_hz, double mode_hz,
+                            double loss = 0.02) {
+  std::string lines = "frequency,real,imag\n";
+  for (double hz = from_hz; hz <= to_hz; hz += 2.0) {
+    const double r = hz / mode_hz;
+    const std::complex<double> H = 1.0 / (4e6 * std::complex<double>(1.0 - r * r, loss * r));
+    lines += std::to_string(hz) + "," + core::exact_text(H.real(), core::kind::number) + "," +
+             core::exact_text(H.imag(), core::kind::number) + "\n";
+  }
+  core::write_file_atomically(folder / "tip.csv", lines);
+  std::string text = cutter_case();
+  const auto from = text.find("[[tool.modes]]"), to = text.find("[cutting]");
+  return text.replace(from, to - from,
+                      "[[tool.measured]]\nresponse = \"x\"\nforce = \"x\"\nfile = \"tip.csv\"\nquantity = "
+                      "\"receptance\"\nunit = \"m/N\"\n");
+}
+
+std::string refusal_of_run(const Case& source, const std::vector<milling::OperatingPoint>& points) {
+  Kept kept;
+  try {
+    (void)run(source, {}, kept, {points});
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 TEST(LobesForecast, LinesThatDoNotReachTheTeethAreRefusedAsTheRunDoes) {
   // Lines to 1000 Hz about a mode at 600 Hz: two teeth pass at 200 Hz at 6000 rpm, which they hold, but at 500 Hz at
   // 15000 rpm they do not.
   const TemporaryFolder folder;
-  std::string lines = "frequency,real,imag\n";
-  for (double hz = 10.0; hz <= 1000.0; hz += 2.0) {
-    const double r = hz / 600.0;
-    const std::complex<double> H = 1.0 / (4e6 * std::complex<double>(1.0 - r * r, 0.02 * r));
-    lines += std::to_string(hz) + "," + core::exact_text(H.real(), core::kind::number) + "," +
-             core::exact_text(H.imag(), core::kind::number) + "\n";
-  }
-  core::write_file_atomically(folder.path / "tip.csv", lines);
-  std::string text = cutter_case();
-  const auto from = text.find("[[tool.modes]]"), to = text.find("[cutting]");
-  text.replace(from, to - from,
-               "[[tool.measured]]\nresponse = \"x\"\nforce = \"x\"\nfile = \"tip.csv\"\nquantity = \"receptance\"\n"
-               "unit = \"m/N\"\n");
-  const auto slow = forecast_lobes(parse_case(text, folder.path), 600.0);
-  ASSERT_TRUE(slow);
-  EXPECT_EQ(slow->refusal, "");
+  const std::string text = case_with_lines(folder.path, 10.0, 1000.0, 600.0);
+  const Case slow = parse_case(text, folder.path);
+  const auto held = forecast_lobes(slow, 600.0);
+  ASSERT_TRUE(held);
+  EXPECT_EQ(held->refusal, "");
   const Case fast = parse_case(with(text, "to = \"6000 rpm\"", "to = \"15000 rpm\""), folder.path);
   const auto refused = forecast_lobes(fast, 600.0);
   ASSERT_TRUE(refused);
   EXPECT_NE(refused->refusal.find("do not hold the harmonic at 1100 Hz"), std::string::npos) << refused->refusal;
-  Kept kept;
-  try {
-    (void)run(fast, {}, kept, {});
-    FAIL();
-  } catch (const core::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("do not hold the harmonic"), std::string::npos) << error.what();
-  }
+  EXPECT_NE(refusal_of_run(fast, {}).find("do not hold the harmonic"), std::string::npos);
+  const std::vector<milling::OperatingPoint> points{{15000.0, 1e-4}};
+  const auto asked = forecast_lobes(slow, 600.0, points);
+  ASSERT_TRUE(asked);
+  EXPECT_EQ(asked->refusal, refusal_of_run(slow, points));
+  EXPECT_EQ(asked->refusal, refused->refusal) << "the chart's last speed is asked about there";
+}
+
+TEST(LobesForecast, LinesAreAskedBetweenTheEndsOfTheChartToo) {
+  // Two teeth pass at 250 Hz and at 1600 Hz at the ends, each 650 Hz or more beside the mode at 900 Hz; at the middle
+  // speed it is 925 Hz, and the harmonic at 25 Hz is none of the lines.
+  const TemporaryFolder folder;
+  const std::string text = case_with_lines(folder.path, 600.0, 3998.0, 900.0);
+  const std::string wide =
+      with(with(text, "from = \"5000 rpm\"", "from = \"7500 rpm\""), "to = \"6000 rpm\"", "to = \"48000 rpm\"");
+  const auto forecast = forecast_lobes(parse_case(wide, folder.path), 600.0);
+  ASSERT_TRUE(forecast);
+  EXPECT_NE(forecast->refusal.find("beside the resonance at 9"), std::string::npos) << forecast->refusal;
+  EXPECT_NE(refusal_of_run(parse_case(wide, folder.path), {}).find("beside the resonance at 9"), std::string::npos);
+}
+
+TEST(LobesForecast, WarnsOfNothingForTheRunDoes) {
+  // Lines of the wrong sign give energy.
+  const TemporaryFolder folder;
+  const std::string text = case_with_lines(folder.path, 10.0, 1000.0, 600.0, -0.02);
+  std::string told;
+  const auto before = core::set_message_listener([&](core::MessageLevel, const std::string& said) { told += said; });
+  const Case source = parse_case(text, folder.path);
+  const auto forecast = forecast_lobes(source, 600.0);
+  EXPECT_EQ(told, "");
+  (void)refusal_of_run(source, {});
+  (void)core::set_message_listener(before);
+  EXPECT_TRUE(forecast);
+  EXPECT_NE(told.find("gives energy"), std::string::npos) << told;
 }
 
 TEST(LobesForecast, WhatIsAskedForBesideTheChartCounts) {
