@@ -87,9 +87,9 @@ std::filesystem::path default_result_folder(const std::string& case_name) {
 
 ResultFolder::ResultFolder(std::filesystem::path folder) : path_(std::move(folder)), present_(nearest_present(path_)) {
   make_folder(path_);
-  was_empty_ = std::filesystem::is_empty(path_);
   refuse_foreign_content(path_);
   lock_ = lock_folder(path_);
+  was_empty_ = std::filesystem::is_empty(path_);
   remove_unfinished_files(path_);
   try {
     remove_earlier_folders(path_);
@@ -115,12 +115,17 @@ void ResultFolder::publish(const std::filesystem::path& staging) {
 void ResultFolder::leave_nothing() noexcept {
   if (!was_empty_) return;
   std::error_code error;
-  std::vector<std::filesystem::path> written;
-  for (const auto& entry : std::filesystem::directory_iterator(path_, error)) written.push_back(entry.path());
-  for (const auto& path : written) std::filesystem::remove_all(path, error);
-  for (auto folder = std::filesystem::absolute(path_, error); folder != present_ && !folder.empty();
-       folder = folder.parent_path()) {
-    if (folder.has_filename() && !std::filesystem::remove(folder, error)) return;
+  try {
+    const std::filesystem::path kept = path_ / "cache";
+    if (std::filesystem::exists(kept) && !std::filesystem::is_empty(kept)) return;  // the log belongs to what is kept
+    std::filesystem::remove(kept, error);
+    std::filesystem::remove(path_ / "run.log", error);
+    for (auto folder = std::filesystem::absolute(path_); folder != present_ && !folder.empty();
+         folder = folder.parent_path()) {
+      if (folder.has_filename() && !std::filesystem::remove(folder, error)) return;
+    }
+  } catch (const std::exception&) {
+    // What is left is a log and empty folders, and the message of the refusal is still to be told.
   }
 }
 

@@ -29,8 +29,9 @@ class ResultFolder {
   /// Publishes `staging` here as publish() does; the folder stays locked.
   void publish(const std::filesystem::path& staging);
 
-  /// Removes all that was written there, with the folders that were made for it, where it was empty before: for a run
-  /// that is refused.
+  /// For a run that is refused, in a folder that was empty before: removes run.log, an empty cache, and the folders
+  /// that were made for it where they are empty then. Stages that were kept in the cache stay, with the log, and so do
+  /// files of others.
   void leave_nothing() noexcept;
 
  private:
@@ -41,7 +42,7 @@ class ResultFolder {
 };
 
 /// body(), which computes into the folder; where it throws InputError, for what the user asked for cannot be computed,
-/// nothing is left there.
+/// nothing is left there but what is worth keeping (ResultFolder::leave_nothing).
 template <class Body>
 auto unless_refused(ResultFolder& folder, const Body& body) {
   try {

@@ -28,7 +28,7 @@ class ClearedArea {
   struct Moment {
     long node = 0;
     Eigen::Vector2d centre = Eigen::Vector2d::Zero();  ///< of the tool, m
-    double reach_m = 0.0;                              ///< the farthest that vibration has moved it
+    double reach_m = 0.0;                              ///< half of how far apart vibration has moved it lately
   };
 
   /// Takes in the walls that the line passes in a step; they are looked at 12 times a turn.

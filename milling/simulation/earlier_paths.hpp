@@ -1,12 +1,13 @@
 #pragma once
 // The material as the paths of earlier teeth have left it, and the edges of the stock.
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "milling/simulation/centre_path.hpp"
 #include "milling/simulation/cleared_area.hpp"
@@ -14,6 +15,38 @@
 #include "milling/simulation/stock.hpp"
 
 namespace thinwall::milling {
+
+/// How far apart displacements of the tool lie within its last turns, so that neither a mean deflection nor the
+/// beginning of a simulation counts for good.
+class RecentReach {
+ public:
+  /// Of the last `nodes` nodes and up to a turn more. The tool has been at `start` before.
+  RecentReach(std::size_t nodes, double node_rad, const Eigen::Vector2d& start)
+      : nodes_a_turn_(std::max(1L, std::lround(2.0 * std::numbers::pi / node_rad))),
+        turns_(nodes / static_cast<std::size_t>(nodes_a_turn_) + 1, Box(start)),
+        earlier_(start) {}
+
+  /// Takes in the displacement at a node, one after the other.
+  void take(long node, const Eigen::Vector2d& displacement_m) {
+    now_.extend(displacement_m);
+    if (node % nodes_a_turn_ != 0) return;
+    turns_[next_++ % turns_.size()] = now_;
+    earlier_ = now_;
+    for (const Box& turn : turns_) earlier_.extend(turn);
+    now_ = Box();
+  }
+
+  /// Half of the diagonal of the box about them, m: two of them lie no farther than twice this apart.
+  [[nodiscard]] double reach_m() const { return 0.5 * earlier_.merged(now_).diagonal().norm(); }
+
+ private:
+  using Box = Eigen::AlignedBox2d;
+
+  long nodes_a_turn_;
+  std::vector<Box> turns_;  ///< the last ones that are whole
+  std::size_t next_ = 0;    ///< over which the next one is written, but for whole rounds
+  Box earlier_, now_;       ///< of these turns, and of the one that is not whole
+};
 
 /// The material of path_march.hpp by the equation of exact_path.hpp.
 class EarlierPaths {
@@ -27,8 +60,8 @@ class EarlierPaths {
         radius_m_(cut.radius_m),
         feed_per_node_m_(cut.feed_per_node_m),
         node_rad_(cut.node_rad),
-        start_(cut.start_m.head<2>()),
-        newest_{0, start_, 0.0} {}
+        reach_(nodes, cut.node_rad, cut.start_m.head<2>()),
+        newest_{0, cut.start_m.head<2>(), 0.0} {}
 
   /// Chip of a disc at a node, m. Iterations of the force move the centre by far less than a chip, and the surface
   /// that was found from the first place then lies closer by as much along n, to the second order.
@@ -51,8 +84,9 @@ class EarlierPaths {
     for (const int c : {1, 2}) {
       path_.set(step.node + c, step.centre[static_cast<std::size_t>(c)]);
       const Eigen::Vector2d fed(feed_per_node_m_ * static_cast<double>(step.node + c), 0.0);
-      reach_m_ = std::max(reach_m_, (step.centre[static_cast<std::size_t>(c)] - fed - start_).norm());
+      reach_.take(step.node + c, step.centre[static_cast<std::size_t>(c)] - fed);
     }
+    reach_m_ = reach_.reach_m();
     newest_ = {step.node + 2, step.centre[2], reach_m_};
     cleared_.pass(path_, newest_);
   }
@@ -63,7 +97,7 @@ class EarlierPaths {
  private:
   /// The farthest that the k-th tooth ahead can have cut on a ray, m from the centre: the tool was behind by the feed
   /// since then, which its other angle on the ray changes by a tenth at most, and by two displacements that lie no
-  /// farther than `reach_m_` from the start.
+  /// farther than twice `reach_m_` apart.
   [[nodiscard]] double bound(const EarlierTooth& other, const Eigen::Vector2d& n) const {
     const double feed = feed_per_node_m_ * other.ahead_rad / node_rad_;
     return farthest_cut_m(other.radius_m, n, -1.1 * feed, -0.9 * feed, 2.0 * reach_m_);
@@ -97,9 +131,9 @@ class EarlierPaths {
   CentrePath path_;
   ClearedArea cleared_;
   double radius_m_, feed_per_node_m_, node_rad_;
-  Eigen::Vector2d start_;
+  RecentReach reach_;
   ClearedArea::Moment newest_;
-  double reach_m_ = 0.0;    ///< the farthest that vibration has moved the tool
+  double reach_m_ = 0.0;    ///< of the passes that are remembered
   bool backwards_ = false;  ///< in the last step the tool moved faster than its teeth cut
 };
 

@@ -45,6 +45,13 @@ Eigen::Vector3d slope_at(const MarchStep& step, double rotation) {
 
 }  // namespace
 
+double size_of_motion(const Extremes& displacement_m) {
+  constexpr double least_share = 1e-6;
+  const Eigen::Vector3d range = displacement_m.range();
+  const double farthest = displacement_m.low.cwiseAbs().cwiseMax(displacement_m.high.cwiseAbs()).maxCoeff();
+  return range.allFinite() ? std::max(range.maxCoeff(), least_share * farthest) : range.maxCoeff<Eigen::PropagateNaN>();
+}
+
 Record::Record(const std::vector<TipPass>& tips, bool alike, double rad_per_s, const SimulationOptions& options,
                SimulatedCut& result)
     : tips_(tips),
@@ -163,7 +170,7 @@ void Record::finish(double recorded_rad) {
   result_.passes.assign(passes_.begin(), passes_.end());
   Eigen::MatrixXd samples(6, std::ssize(samples_));
   for (std::size_t i = 0; i < samples_.size(); ++i) samples.col(static_cast<Eigen::Index>(i)) = samples_[i];
-  if (samples.cols() >= 2) result_.motion = motion_kind(samples, result_.displacement_m.range().maxCoeff());
+  if (samples.cols() >= 2) result_.motion = motion_kind(samples, size_of_motion(result_.displacement_m));
 }
 
 }  // namespace thinwall::milling

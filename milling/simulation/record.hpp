@@ -12,6 +12,10 @@
 
 namespace thinwall::milling {
 
+/// The size of a motion, which its differences are held against: the largest range along an axis, and a millionth of
+/// the farthest place at least, for the range of a steady motion is round-off. NaN where nothing was taken in.
+[[nodiscard]] double size_of_motion(const Extremes& displacement_m);
+
 /// Sums over the recorded periods: an observer of the march, which calls it with every step.
 class Record {
  public:

@@ -10,23 +10,29 @@ namespace thinwall::milling {
 /// follow chips.
 inline constexpr double most_removal_error = 0.01;
 
-/// Looks at both areas when the record begins and after each tenth of its turns. Whatever the motion, they are equal
-/// but for the steps; where one of them is not known, nothing is said.
+/// Looks at both areas when the record begins, after each tenth of its turns, and after the last. Whatever the motion,
+/// they are equal but for the steps; where one of them is not known, nothing is said. Equal areas are necessary for
+/// enough steps and do not suffice: too few may begin a chatter whose chips are those of its own motion.
 class RemovalCheck {
  public:
   /// Less than `least_m2` is not judged: where a tool enters at a border, the first chips are few.
-  RemovalCheck(int recorded_turns, double least_m2) : turns_a_look_((recorded_turns + 9) / 10), least_m2_(least_m2) {}
+  RemovalCheck(int recorded_turns, double least_m2)
+      : turns_(recorded_turns), turns_a_look_((recorded_turns + 9) / 10), least_m2_(least_m2) {}
 
   /// True after a turn of the record, 0 before the first one, at which to look.
-  [[nodiscard]] bool is_due(int turn) const { return turn >= 0 && turn % turns_a_look_ == 0; }
+  [[nodiscard]] bool is_due(int turn) const { return turn == turns_ || (turn >= 0 && turn % turns_a_look_ == 0); }
 
-  /// Takes in the area of the chips since the record began, and that which was cleared, up to a constant, m².
+  /// Takes in the area of the chips since the record began, and that which was cleared, up to a constant, m². Both
+  /// count from the first look at which both are known.
   void look(double chips_m2, std::optional<double> cleared_m2, double time_s) {
-    if (!begun_) first_m2_ = cleared_m2;
-    begun_ = true;
     error_.reset();
-    if (!first_m2_ || !cleared_m2 || !(*cleared_m2 - *first_m2_ > least_m2_)) return;
-    error_ = chips_m2 / (*cleared_m2 - *first_m2_) - 1.0;
+    if (!cleared_m2) return;
+    if (!first_m2_) {
+      first_m2_ = cleared_m2;
+      first_chips_m2_ = chips_m2;
+    }
+    if (!(*cleared_m2 - *first_m2_ > least_m2_)) return;
+    error_ = (chips_m2 - first_chips_m2_) / (*cleared_m2 - *first_m2_) - 1.0;
     if (!broken_s_ && std::abs(*error_) >= most_removal_error) broken_s_ = time_s;
   }
 
@@ -36,9 +42,9 @@ class RemovalCheck {
   [[nodiscard]] std::optional<double> broken_s() const { return broken_s_; }
 
  private:
-  int turns_a_look_;
+  int turns_, turns_a_look_;
   double least_m2_;
-  bool begun_ = false;
+  double first_chips_m2_ = 0.0;
   std::optional<double> first_m2_, error_, broken_s_;
 };
 

@@ -52,8 +52,9 @@ SimulatedCut over_turns(Marched& motion, const MillingProcess& process, double f
   const int untraced = (turns - options.traced_turns) * of.a_turn;
   const int unwalled = (turns - options.wall.turns) * of.a_turn;
   const double feed_a_turn_m = 2.0 * std::numbers::pi * feed_m_per_rad;
-  RemovalCheck removal(options.recorded_turns, 0.1 * process.cutter.diameter_m * feed_a_turn_m);
-  if (options.settling_turns == 0) removal.look(0.0, motion.cleared_m2(), 0.0);
+  const bool enters = options.settling_turns == 0;  // in the record, maybe
+  RemovalCheck removal(options.recorded_turns, enters ? 0.1 * process.cutter.diameter_m * feed_a_turn_m : 0.0);
+  if (enters) removal.look(0.0, motion.cleared_m2(), 0.0);
   const Unseen unseen;
   long unsettled = 0, lost = 0, lost_recorded = 0;
   int period = 0;
@@ -77,7 +78,7 @@ SimulatedCut over_turns(Marched& motion, const MillingProcess& process, double f
   if (lost_recorded > 0 && 100 * lost_recorded > static_cast<long>(period - settling) * of.nodes)
     result.status = SimulationStatus::surface_lost;
   result.removal_error = removal.error();
-  if (removal.broken_s() && result.status == SimulationStatus::completed) {
+  if (removal.broken_s() && !ended_early(result.status)) {
     result.status = SimulationStatus::too_coarse;
     result.simulated_s = *removal.broken_s();
   }

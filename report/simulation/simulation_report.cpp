@@ -27,8 +27,9 @@ std::string motion_in_words(const SimulatedPointSummary& p) {
   if (p.motion == "periodic") return "repeats itself with the cut";
   if (p.motion == "period_n") return fmt::format("repeats itself after {} periods of the cut", p.period);
   if (p.motion == "growing") return "grows";
-  return p.growth.stable() ? "never repeats itself, though small ones decay: settle more turns, or it is chatter that "
-                             "a large enough disturbance begins"
+  return p.growth.stable() ? "never repeats itself, though small ones decay: take more steps first (simulation.steps, "
+                             "simulation.steps_a_turn), then settle more turns, or it is chatter that a large enough "
+                             "disturbance begins"
                            : "never repeats itself";
 }
 
@@ -124,7 +125,14 @@ std::string lag_text(const std::vector<double>& lag_m) {
                      length(lag_m[0]), length(lag_m[1]));
 }
 
-std::string text_of(const SimulatedPointSummary& p) {
+/// What is not known of a point on paths that are not circles: whether its chips are what the part lost.
+std::string unchecked_text(const SimulatedPointSummary& p, const std::string& paths) {
+  if (paths == "circular" || p.removal_error_relative) return "";
+  return "  removal    not checked, whether steps are enough: vibration reaches walls that are finished, or the record "
+         "is too short\n";
+}
+
+std::string text_of(const SimulatedPointSummary& p, const std::string& paths) {
   std::string text = fmt::format("{} at {:.0f} rpm, {} deep: {}\n", chart_title(p.chart), p.spindle_speed_rpm,
                                  length(p.depth_m), outcome(p));
   text += growth_text(p.growth);
@@ -141,6 +149,7 @@ std::string text_of(const SimulatedPointSummary& p) {
   for (const ApproachSummary& approach : p.approach) {
     if (approach.final_m != 0.0) text += approach_text(approach);
   }
+  text += unchecked_text(p, paths);
   text += lines_text(p);
   for (const WallSummary& wall : p.walls) text += wall_text(wall);
   return text;
@@ -165,7 +174,8 @@ std::string text_of(const AmplitudeMapSummary& map) {
 std::string simulation_text(const Summary& summary) {
   std::string text;
   if (!summary.simulation) return text;
-  for (const SimulatedPointSummary& point : summary.simulation->points) text += text_of(point);
+  for (const SimulatedPointSummary& point : summary.simulation->points)
+    text += text_of(point, summary.simulation->paths);
   for (const AmplitudeMapSummary& map : summary.simulation->maps) text += text_of(map);
   return text;
 }

@@ -19,6 +19,7 @@
 #include "milling/forced/forced_vibration.hpp"
 #include "milling/simulation/entry.hpp"
 #include "milling/simulation/exact_path.hpp"
+#include "milling/simulation/record.hpp"
 #include "milling/simulation/region_path.hpp"
 #include "setup/milling_process.hpp"
 #include "setup/robot_tip.hpp"
@@ -149,26 +150,34 @@ bool one_entry(const milling::MillingProcess& process) {
   return straight && process.cutter.envelope.straight() && process.further_engagements.empty();
 }
 
-/// The place in closed form where a tooth leaves the cut; before the force ends, of which a residual may be left.
+/// The place in closed form where a tooth leaves the cut; before the force ends, and the next tooth enters, of which a
+/// residual may be left.
 Eigen::Vector3d exit_of(const milling::ForcedVibration& forced, const milling::MillingProcess& process) {
-  const double rotation = std::fmod(process.engagement.arc_rad(), process.cutter.pitch_rad());
+  constexpr double hair = 1e-9;  // rad
+  double rotation = std::fmod(process.engagement.arc_rad(), process.cutter.pitch_rad());
+  if (rotation < hair) rotation = process.cutter.pitch_rad();  // with the entry of a tooth, which ends the period
   Eigen::Index nearest = 0;
   (forced.rotation_rad.array() - rotation).abs().minCoeff(&nearest);
-  if (nearest > 0 && forced.rotation_rad(nearest) - forced.rotation_rad(nearest - 1) < 1e-9) --nearest;
+  if (nearest > 0 && forced.rotation_rad(nearest) - forced.rotation_rad(nearest - 1) < hair) --nearest;
   return forced.displacement_m.col(nearest);
+}
+
+/// The largest of three numbers, NaN if one of them is.
+double largest_of(double a, double b, double c) {
+  return Eigen::Vector3d(a, b, c).maxCoeff<Eigen::PropagateNaN>();
 }
 
 /// The largest difference of the figures that a simulation has of a periodic motion. Where steps end at entry and exit
 /// the places there are those of the march; peaks lie within steps, and are those of parabolas.
 double difference_of(const milling::SimulatedCut& cut, const milling::ForcedVibration& forced,
                      const milling::MillingProcess& process) {
-  const double size = forced.peak_to_peak_m.maxCoeff();
+  const double size = milling::size_of_motion(cut.displacement_m);
   const double force = (cut.mean_force_n - forced.mean_force_n).norm() / forced.peak_force_n;
   if (!one_entry(process) || cut.passes.empty())
-    return std::max(force, (cut.displacement_m.range() - forced.peak_to_peak_m).cwiseAbs().maxCoeff() / size);
+    return largest_of(force, (cut.displacement_m.range() - forced.peak_to_peak_m).cwiseAbs().maxCoeff() / size, 0.0);
   const milling::ToothPass& last = cut.passes.back();
-  return std::max({force, (last.entry_m - forced.displacement_m.col(0)).norm() / size,
-                   (last.exit_m - exit_of(forced, process)).norm() / size});
+  return largest_of(force, (last.entry_m - forced.displacement_m.col(0)).norm() / size,
+                    (last.exit_m - exit_of(forced, process)).norm() / size);
 }
 
 /// The closed form beside a simulated motion; none where it does not hold: at an unstable point, of teeth that differ,
@@ -199,7 +208,7 @@ void warn_of_lost_wall(const Simulated& cut, const PointSimulation& p) {
     return milling::rotation_to_wall(arc, 1) || milling::rotation_to_wall(arc, -1);
   });
   if (!reached || cut.options.wall.turns == 0 || !p.cut.walls.empty()) return;
-  if (p.cut.status != milling::SimulationStatus::completed) return;
+  if (milling::ended_early(p.cut.status)) return;
   core::warn(fmt::format(
       "at {:.6g} rpm no part of the wall is finished within the {} turns of which it is recorded, for passes that were "
       "not may reach everywhere: record more (simulation.turns, simulation.wall)",
@@ -249,7 +258,7 @@ double expected_trend(const Simulated& cut, const PointSimulation& p) {
   return std::pow(p.lobes.modulus, 0.5 * turns * periods_a_turn);
 }
 
-/// The range of the places at which a tooth enters in the last half of the record, over the peak to peak of the motion.
+/// The range of the places at which a tooth enters in the last half of the record, over the size of the motion.
 double spread_of_entries(const milling::SimulatedCut& cut) {
   milling::Extremes entries;
   for (std::size_t i = cut.passes.size() / 2; i < cut.passes.size(); ++i) {
@@ -257,17 +266,17 @@ double spread_of_entries(const milling::SimulatedCut& cut) {
     entries.low = entries.low.cwiseMin(cut.passes[i].entry_m);
     entries.high = entries.high.cwiseMax(cut.passes[i].entry_m);
   }
-  return entries.range().maxCoeff() / cut.displacement_m.range().maxCoeff();
+  return entries.range().maxCoeff() / milling::size_of_motion(cut.displacement_m);
 }
 
 /// The kind of a motion where small vibrations decay. One that differs by less than a hundredth of its size from turn
 /// to turn has nothing but a small vibration left of its beginning: chatter that lasts beside it loses contact, or
-/// bends the force, and is no smaller than a chip.
+/// bends the force, and is no smaller than a chip. What grows is not left of the beginning, however small it is.
 milling::MotionKind kind_beside_decay(const Simulated& cut, const PointSimulation& p) {
   constexpr double small = 0.01;
   milling::MotionKind kind = milling::kind_beside_decay(p.cut.motion, expected_trend(cut, p));
-  const bool without_period = kind.motion == milling::Motion::quasi_periodic || kind.motion == milling::Motion::growing;
-  if (without_period && spread_of_entries(p.cut) < small) kind.motion = milling::Motion::settling;
+  const bool lasts = kind.motion == milling::Motion::quasi_periodic && kind.trend <= 1.0;
+  if (lasts && spread_of_entries(p.cut) < small) kind.motion = milling::Motion::settling;
   return kind;
 }
 

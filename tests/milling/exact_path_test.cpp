@@ -9,7 +9,9 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "milling/simulation/earlier_paths.hpp"
 #include "milling/simulation/region_path.hpp"
+#include "milling/simulation/removal_check.hpp"
 #include "tests/milling/single_mode.hpp"
 
 namespace thinwall::milling::exact_path_test {
@@ -144,6 +146,39 @@ TEST(ExactPath, TellsWhenStepsMissAPartOfTheCut) {
   EXPECT_NEAR(*coarse.removal_error, coarse.removed_m2 / (2e-4 * 4e-3) - 1.0, 1e-4);
   EXPECT_GT(coarse.mean_power_w, 0.0);
   EXPECT_EQ(with(720).status, SimulationStatus::completed);
+}
+
+/// The balance is looked at after the last turn, too: of 11 turns every second is looked at, up to the tenth. Without
+/// a beginning at a border the first chips count, however few they are.
+TEST(RemovalCheck, LooksAfterTheLastTurnAndBeginsWhereBothAreasAreKnown) {
+  RemovalCheck check(11, 0.0);
+  EXPECT_TRUE(check.is_due(0) && check.is_due(10) && check.is_due(11));
+  EXPECT_FALSE(check.is_due(9) || check.is_due(-1));
+  check.look(0.0, std::nullopt, 0.0);
+  check.look(1.0, 5.0, 1.0);
+  EXPECT_FALSE(check.error()) << "nothing was cleared since";
+  check.look(2.0, 6.0, 2.0);
+  EXPECT_EQ(check.error(), 0.0);
+  check.look(3.04, 7.0, 3.0);
+  EXPECT_NEAR(*check.error(), 0.02, 1e-12);
+  EXPECT_EQ(check.broken_s(), 3.0);
+  check.look(4.0, std::nullopt, 4.0);
+  EXPECT_FALSE(check.error());
+}
+
+/// Neither a mean deflection nor a beginning that is forgotten widens what the paths of the last turns may reach.
+TEST(RecentReach, ForgetsWhatLiesBeforeTheTurnsThatAreRemembered) {
+  RecentReach reach(20, pi / 5.0, {3.0, 0.0});  // turns of ten nodes
+  long node = 0;
+  const auto march = [&](int turns, const Eigen::Vector2d& at) {
+    for (int i = 0; i < 10 * turns; ++i) reach.take(++node, at);
+  };
+  march(1, {3.0, 4.0});
+  EXPECT_DOUBLE_EQ(reach.reach_m(), 2.0);
+  march(2, {3.0, 2.0});
+  EXPECT_DOUBLE_EQ(reach.reach_m(), 1.0) << "the start is forgotten, the first turn is not";
+  march(1, {3.0, 2.0});
+  EXPECT_DOUBLE_EQ(reach.reach_m(), 0.0);
 }
 
 /// A circle and a trochoid part as the cutter grows: by the first order in f/D.

@@ -181,6 +181,27 @@ TEST(ResultFolder, StaysLockedWhenItsResultsArePublished) {
   EXPECT_EQ(refusal(earlier.folder), "");
 }
 
+/// What a refused run leaves: nothing, unless a stage is kept already or somebody put a file there meanwhile.
+TEST(ResultFolder, ARefusedRunTakesBackItsLogAloneAndWhatItKeptStays) {
+  const auto left_with = [](const std::string& file) {
+    const TemporaryFolder temporary;
+    const std::filesystem::path folder = temporary.path / "made" / "out";
+    {
+      ResultFolder held(folder);
+      std::ofstream(folder / "run.log") << "log";
+      std::filesystem::create_directories(folder / "cache");
+      if (!file.empty()) std::ofstream(folder / file) << "kept";
+      EXPECT_THROW(unless_refused(held, []() -> int { throw core::InputError("refused"); }), core::InputError);
+    }
+    EXPECT_EQ(std::filesystem::exists(temporary.path / "made"), !file.empty()) << file;
+    EXPECT_TRUE(std::filesystem::exists(temporary.path));
+    return file.empty() ? std::vector<std::string>{} : names_below(folder);
+  };
+  EXPECT_EQ(left_with(""), std::vector<std::string>{});
+  EXPECT_EQ(left_with("cache/part.bin"), (std::vector<std::string>{"cache/part.bin", "run.log"}));
+  EXPECT_EQ(left_with("notes.txt"), (std::vector<std::string>{"notes.txt"}));
+}
+
 TEST(ResultFolder, WhatAKilledRunLeftBesideItIsRemovedUnlessThatRunStillHasIt) {
   const TemporaryFolder temporary;
   const auto left = temporary.path / ".out.partial-1-0", another = temporary.path / ".other.partial-1-0";

@@ -4,12 +4,16 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <sstream>
 #include <utility>
 
+#include "app/command_line.hpp"
 #include "case/keys.hpp"
 #include "core/atomic_file.hpp"
 #include "io/frf/response_csv.hpp"
@@ -131,6 +135,30 @@ TEST(Kept, TheSecondRunIsTheFirstOneWithoutItsMesh) {
   EXPECT_EQ(core::read_file(folder / "lobes" / "supported.csv"), chart);
   const auto fresh = run_kept(wall, folder, true);
   EXPECT_TRUE(meshed(fresh)) << "--fresh";
+}
+
+/// The lines of the tool end below the teeth of a point at 60 000 rpm, which is refused when the part is there.
+TEST(Kept, APartStaysWhereThePointIsRefusedAfterIt) {
+  const fs::path folder = scratch("kept_refused"), out = folder / "out";
+  std::ofstream tip(folder / "tip.csv");
+  for (double hz = 50.0; hz < 2500.0; hz += 10.0) {
+    const std::complex<double> value =
+        1e-7 / (1.0 - std::pow(hz / 900.0, 2) + std::complex<double>(0.0, 0.1 * hz / 900.0));
+    tip << hz << ", " << value.real() << ", " << value.imag() << '\n';
+  }
+  tip.close();
+  std::ofstream(folder / "case.toml") << wall.substr(0, wall.find("[path]"))
+                                      << "[[tool.measured]]\nresponse = \"y\"\nforce = \"y\"\nfile = \"tip.csv\"\n"
+                                         "quantity = \"receptance\"\nunit = \"m/N\"\n";
+  const std::string case_file = (folder / "case.toml").string(), results = out.string();
+  const std::array<const char*, 8> words{"thinwall", "run",  case_file.c_str(),  "--out", results.c_str(),
+                                         "-q",       "--at", "60000 rpm, 0.1 mm"};
+  std::ostringstream told, refused;
+  EXPECT_EQ(app::run_command_line(static_cast<int>(words.size()), words.data(), app::run_case, told, refused), 3);
+  EXPECT_NE(refused.str().find("do not hold the harmonic"), std::string::npos) << refused.str();
+  EXPECT_TRUE(fs::exists(out / "cache" / "part.bin"));
+  EXPECT_TRUE(fs::exists(out / "run.log"));
+  EXPECT_FALSE(fs::exists(out / "lobes"));
 }
 
 TEST(Kept, WhatChangesIsComputedAnew) {
