@@ -17,6 +17,7 @@
 #include "core/time_limit.hpp"
 #include "milling/chart/robust_lobes.hpp"
 #include "milling/chart/sampled_stability.hpp"
+#include "setup/identified/identify.hpp"
 #include "setup/milling_process.hpp"
 #include "setup/path.hpp"
 #include "setup/robot_tip.hpp"
@@ -91,11 +92,11 @@ Took mean_row(const std::function<void(double rpm)>& row, double from_rpm, doubl
 }
 
 /// What milling::require_range() has against the tool's lines at the speeds that the chart certainly has, the highest
-/// first, for it needs the widest range; empty if nothing.
+/// first, for it needs the widest range; empty if nothing, or if the lines follow from modes that are not learned yet.
 std::string refusal_of_lines(const setup::Setup& source, const std::vector<milling::OperatingPoint>& points) {
-  if (!setup::known_by_lines(*source.tool)) return "";
+  if (!setup::known_by_lines(*source.tool) || setup::awaits_learning(source)) return "";
   const milling::MillingProcess process = setup::milling_process(source);
-  const milling::SampledReceptance lines = tip_lines(source, process.frame);
+  const milling::SampledReceptance lines = tip_lines(before_identification(source), process.frame);
   std::vector<double> speeds = even_speeds(*source.lobes);
   std::ranges::copy(asked_speeds(source, points), std::back_inserter(speeds));
   std::ranges::sort(speeds, std::greater());
