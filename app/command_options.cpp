@@ -20,6 +20,15 @@ std::string alternatives(const std::vector<std::string>& names) {
   return list;
 }
 
+/// An empty word would stand for the default, as where a variable of a script is not set.
+std::string names_a_file(const std::string& file) {
+  return file.empty() ? "the name is empty; name a file, or leave the option out" : "";
+}
+
+std::string has_a_value(const std::string& word) {
+  return word.empty() ? "the value is empty; give one, or leave the option out" : "";
+}
+
 void add_overrides(CLI::App& command, Arguments& arguments) {
   command.add_option("--set", arguments.overrides, "a value put over the case: --set part.element_size=\"8 mm\"")
       ->type_name("KEY=VALUE")
@@ -109,7 +118,8 @@ void add_fit_input(CLI::App* command, FitInput& input) {
   command
       ->add_option("--geometry", input.geometry,
                    "places of the points, for the page: UFF, or CSV with point, x_m, y_m, z_m")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(names_a_file);
 }
 
 void describe_fit(CLI::App& app, FitRequest& fit) {
@@ -124,7 +134,8 @@ void describe_fit(CLI::App& app, FitRequest& fit) {
   command
       ->add_option("--swap", fit.swap,
                    "[tool.swap] with the tool that was measured and another, for which it is exchanged before the fit")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(names_a_file);
   command->add_option("--from", fit.from, "first frequency: \"20 Hz\" (default: all)")->type_name("FREQUENCY");
   command->add_option("--to", fit.to, "last frequency")->type_name("FREQUENCY");
   command
@@ -150,6 +161,8 @@ void describe_fit(CLI::App& app, FitRequest& fit) {
   command->add_option("--noise", fit.noise, "noise of real and imaginary part, relative: 0.01 (default: by scatter)");
   command->add_flag("--passive", fit.passive,
                     "residues are moved, as little as needed, until the model gives no energy");
+  for (const char* option : {"--from", "--to", "--poles", "--terms", "--residues"})
+    command->get_option(option)->check(has_a_value);
   command->add_option("-o,--out", fit.out, "folder for the tables and the page (default: fit)")
       ->type_name("DIR")
       ->check(has_a_name);

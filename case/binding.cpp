@@ -393,7 +393,10 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   if (root.table("path").exists()) bound.path = bind_path(root.table("path"));
   if (setup::carries_tool(bound.robot)) {
     if (bound.cutting) bound.robot->cut_point = bound.cutting->at;
-    if (auto* robot = setup::tabled_robot(bound.robot)) robot->up = bind_point_up(bound);
+    if (auto* robot = setup::tabled_robot(bound.robot)) {
+      robot->up = bind_point_up(bound);
+      if (robot->up) bound.tool->swap->tip = robot->table_point;  // or the default could be the point up
+    }
     if (bound.path) bound.path->robot_follows = true;  // with the tool
   }
   if (root.table("simulation").exists()) bound.simulation = bind_simulation(root.table("simulation"), bound.lobes);

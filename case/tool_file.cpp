@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "case/binding.hpp"
+#include "case/checks/tool_checks.hpp"
 #include "case/problem.hpp"
 #include "case/schema/schema.hpp"
 #include "case/toml_values.hpp"
@@ -20,6 +21,9 @@ setup::Tool read_tool(const std::filesystem::path& file) {
   if (!read.problems.empty()) throw CaseError({file.string(), text}, std::move(read.problems));
   const Case bound = bind_case(std::move(read.values), file.parent_path());
   if (!bound.tool) throw core::InputError(file.string() + ": there is no [tool]; add it with teeth and diameter");
+  Findings findings{bound.values, {}};
+  if (bound.tool->swap) check_swapped_tools(*bound.tool, findings);
+  if (!findings.problems.empty()) throw CaseError({file.string(), text}, std::move(findings.problems));
   return *bound.tool;
 }
 

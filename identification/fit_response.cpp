@@ -25,21 +25,6 @@ bool is_used(double hz, const ResponseFitOptions& options) {
   return std::ranges::none_of(options.left_out, [&](const Band& b) { return hz >= b.from_hz && hz <= b.to_hz; });
 }
 
-std::vector<std::size_t> used_lines(const dynamics::ResponseModel& measured, const ResponseFitOptions& options) {
-  std::vector<std::size_t> lines;
-  for (Eigen::Index i = 0; i < measured.axis.size(); ++i) {
-    if (is_used(measured.axis.hz(i), options)) lines.push_back(static_cast<std::size_t>(i));
-  }
-  if (lines.size() < fewest_lines)
-    throw core::InputError(
-        "the band holds " + std::to_string(lines.size()) + " lines above 0 Hz, must be at least 10; " +
-        (measured.axis.size() == 0
-             ? std::string("the file has none: measure again")
-             : "widen it: the file has " + std::to_string(measured.axis.size()) + " from " +
-                   text("%.6g to %.6g Hz", measured.axis.hz(0), measured.axis.hz(measured.axis.size() - 1))));
-  return lines;
-}
-
 /// The lines without their variances. Throws InputError where an entry is zero on all of them.
 MeasuredLines lines_of(const dynamics::ResponseModel& measured, const std::vector<std::size_t>& used) {
   MeasuredLines lines;
@@ -241,6 +226,21 @@ bool free_are_better(const ResponseFit& fit) {
 }
 
 }  // namespace
+
+std::vector<std::size_t> used_lines(const dynamics::ResponseModel& measured, const ResponseFitOptions& options) {
+  std::vector<std::size_t> lines;
+  for (Eigen::Index i = 0; i < measured.axis.size(); ++i) {
+    if (is_used(measured.axis.hz(i), options)) lines.push_back(static_cast<std::size_t>(i));
+  }
+  if (lines.size() < fewest_lines)
+    throw core::InputError(
+        "the band holds " + std::to_string(lines.size()) + " lines above 0 Hz, must be at least 10; " +
+        (measured.axis.size() == 0
+             ? std::string("the file has none: measure again")
+             : "widen it: the file has " + std::to_string(measured.axis.size()) + " from " +
+                   text("%.6g to %.6g Hz", measured.axis.hz(0), measured.axis.hz(measured.axis.size() - 1))));
+  return lines;
+}
 
 ResponseFit fit_of_any_rank(const dynamics::ResponseModel& measured, const std::vector<Eigen::MatrixXd>& coherence,
                             ResponseFitOptions& options) {

@@ -47,6 +47,11 @@ struct ResponseFit {
   std::optional<PassiveChange> passive;  ///< where it was asked for
 };
 
+/// Which lines of a measured matrix a fit uses: those in the band and not left out, above 0 Hz, ascending. Throws
+/// InputError for fewer than ten. Cost O(lines).
+[[nodiscard]] std::vector<std::size_t> used_lines(const dynamics::ResponseModel& measured,
+                                                  const ResponseFitOptions& options);
+
 /// identify() of a measured matrix. Variances of the lines follow from the stated noise; else from the coherence (one
 /// matrix a line, or none), if its number of averages is known; else from the scatter from line to line. They are taken
 /// once of the lines themselves and twice more by what was fitted before, so that neither small values nor resonances

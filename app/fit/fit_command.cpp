@@ -179,7 +179,7 @@ std::string fit_files(const FitRequest& request) {
   identification::ResponseFitOptions options = options_of(request);
   FitMatrix matrix = fit_matrix(request.input);
   const std::vector<std::string> sensor_doubts = free_of_sensors(matrix, request.sensors);
-  const std::vector<std::string> swap_doubts = with_other_tool(matrix, request.swap);
+  const std::vector<std::string> swap_doubts = with_other_tool(matrix, request.swap, options);
   report::FitReport found{matrix.measured, {}};
   check_weights(matrix, request, found.notes);
   if (!request.poles.empty()) {

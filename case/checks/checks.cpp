@@ -310,7 +310,7 @@ std::vector<Problem> check_case(const Case& source) {
   check_updating(source, findings);
   if (source.tool) check_tool(*source.tool, findings);
   if (source.cutting) check_cutting(source, findings);
-  if (source.tool && (source.lobes || source.simulation) &&
+  if (source.tool && (source.lobes || source.simulation || setup::swapped_on_robot(*source.tool)) &&
       (!source.tool->measured.empty() || source.tool->swap || source.tool->fit))
     check_measured_tool(source, findings);
   if (source.lobes) check_lobes(source, findings);

@@ -74,8 +74,9 @@ struct Regeneration {
 /// Adds as many contacts as D has rank, for each of them is a row and a column of the loop's gain. They see the axes as
 /// far as D does, the first of which it sees a quarter first, and change little where D does: an eigenvalue is followed
 /// by its vectors from one depth to the next. Singular vectors would change their signs, and turn freely where two
-/// teeth a quarter of a turn apart are in the cut, whose singular values are equal. Their signs follow those of the node
-/// before, so that the contacts of an arc are smooth, as eigenvectors of low frequencies are, from which searches begin.
+/// teeth a quarter of a turn apart are in the cut, whose singular values are equal. Their signs follow those of the
+/// node before, so that the contacts of an arc are smooth, as eigenvectors of low frequencies are, from which searches
+/// begin.
 void add_by_rank(const Regeneration& one, int node, std::vector<EdgeContact>& contacts) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(one.D, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Index rank = (svd.singularValues().array() > 1e-13 * svd.singularValues()(0)).count();

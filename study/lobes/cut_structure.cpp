@@ -74,6 +74,13 @@ milling::SampledReceptance swapped(const setup::CutSetup& source) {
     core::warn(fmt::format(
         "the tool swap lost more than half of its digits (condition {:.1e} at {:.1f} Hz): expect errors there",
         result.worst_condition, result.at_frequency_hz));
+  const bool on_lines_of_modes = setup::swapped_on_robot(*source.tool);
+  if (const auto peak = on_lines_of_modes ? unresolved_peak_hz(result.tip) : std::nullopt)
+    core::warn(
+        fmt::format("the swapped tool's peak at {:.1f} Hz has less than four of the {} lines in its width, the most "
+                    "that are taken: "
+                    "bound them by tool.swap.to",
+                    *peak, result.tip.frequency_hz.size()));
   warn_if_implausible(result.tip, "the swapped tool's");
   return std::move(result.tip);
 }

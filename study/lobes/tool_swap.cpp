@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "core/error.hpp"
@@ -20,6 +21,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr auto root = "root";
+constexpr int most_lines = 4000;
 
 dynamics::Tube tube(const setup::ToolStep& step) {
   return {step.outer_diameter, step.inner_diameter, step.youngs_modulus, step.poisson_ratio, step.density};
@@ -48,6 +50,20 @@ dynamics::SpatialModel free_tool(const std::vector<setup::ToolStep>& steps, cons
     throw core::InputError("tool.swap.distance: the second point lies beyond the overhang of the measured tool");
   names.back() = root;
   return fem::tool_beam(cylinders, names, axis);
+}
+
+/// The lowest frequency of a tool whose root is held rigidly, Hz.
+double clamped_frequency_hz(const std::vector<setup::ToolStep>& steps) {
+  constexpr int elements = 4;
+  fem::BeamFrame frame;
+  frame.nodes.push_back({Vector3d::Zero(), "", true});
+  for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
+    const std::size_t before = frame.nodes.size() - 1;
+    frame.nodes.push_back({frame.nodes.back().position_m + step->length * Vector3d::UnitZ(), ""});
+    frame.segments.push_back({before, before + 1, dynamics::section(tube(*step)), elements});
+  }
+  frame.nodes.back().name = "tip";
+  return dynamics::undamped_modes(fem::spatial_model(frame)).omega_rad_s.minCoeff() / (2.0 * std::numbers::pi);
 }
 
 /// H = U diag(1/(ω_r² − ω²)) Uᵀ over all its modes, rigid motions among them.
@@ -129,17 +145,6 @@ dynamics::ResponseModel response_of(const dynamics::ModalTable& table, const dyn
   return dynamics::to_response(robot::modal_model(table), lines);
 }
 
-/// The FRFs with the reference tool, on the lines of their first file or those of the modes.
-dynamics::ResponseModel with_reference(const setup::ToolSwap& swap) {
-  if (!swap.measured.empty())
-    return setup::measured_response(swap.measured, setup::receptance_of(swap.measured.front()).axis);
-  if (!swap.table)
-    throw core::InputError(
-        "tool.swap has neither FRFs nor the modes of a robot; call setup::identify() for those, or give "
-        "tool.swap.measured");
-  return response_of(*swap.table, lines_of_modes(swap));
-}
-
 SwappedResponse swapped(const Swap& swap, const dynamics::ResponseModel& measured) {
   const coupling::SwappedTool in_machine =
       coupling::tool_swap(with_rotations(measured, swap.of, swap.directions, swap.axis), swap.reference, swap.target);
@@ -174,21 +179,52 @@ SwappedTip in_space(const SwappedResponse& response) {
   return result;
 }
 
+/// The FRFs with the reference tool, on the lines of their first file or those of the modes: as the other tool may be
+/// damped less than the modes are, twice as many until its peaks are resolved.
+dynamics::ResponseModel with_reference(const setup::ToolSwap& swap, const Vector3d& axis) {
+  if (!swap.measured.empty())
+    return setup::measured_response(swap.measured, setup::receptance_of(swap.measured.front()).axis);
+  if (!swap.table)
+    throw core::InputError(
+        "tool.swap has neither FRFs nor the modes of a robot; call setup::identify() for those, or give "
+        "tool.swap.measured");
+  dynamics::ResponseModel response = response_of(*swap.table, lines_of_modes(swap));
+  while (response.axis.size() < most_lines &&
+         unresolved_peak_hz(in_space(swapped_response(swap, axis, response)).tip)) {
+    const Eigen::VectorXd& hz = response.axis.hz;
+    const int lines = std::min(2 * static_cast<int>(hz.size()), most_lines);
+    response = response_of(*swap.table, dynamics::logarithmic_axis(hz(0), hz(hz.size() - 1), lines));
+  }
+  return response;
+}
+
 }  // namespace
 
 dynamics::FrequencyAxis lines_of_modes(const setup::ToolSwap& swap) {
-  constexpr double least = 20.0, most = 4000.0;
+  constexpr double least = 20.0;
   const auto [low, high] = std::ranges::minmax(swap.table->rows, {}, &dynamics::ModalTableRow::frequency_hz);
-  const double from = 0.5 * low.frequency_hz, to = swap.to_hz.value_or(high.frequency_hz);
-  if (!(to > from))
+  const double half = 0.5 * low.frequency_hz, to = swap.to_hz.value_or(high.frequency_hz);
+  if (!(to > half))
     throw core::InputError("tool.swap.to: " + core::readable_text(to, core::kind::frequency) +
                            " lies below the modes of the robot's table, must be above " +
-                           core::readable_text(from, core::kind::frequency));
+                           core::readable_text(half, core::kind::frequency));
+  const double ratio = low.frequency_hz / clamped_frequency_hz(swap.target);
+  const double from = half / std::hypot(1.0, ratio);  // half of Dunkerley's frequency for the other tool in its place
   double damping = 1.0;
   for (const dynamics::ModalTableRow& row : swap.table->rows)
     if (row.frequency_hz <= to) damping = std::min(damping, row.damping_ratio);
-  return dynamics::logarithmic_axis(from, to,
-                                    static_cast<int>(std::clamp(2.0 * std::log(to / from) / damping, least, most)));
+  return dynamics::logarithmic_axis(
+      from, to, static_cast<int>(std::clamp(2.0 * std::log(to / from) / damping, least, 1.0 * most_lines)));
+}
+
+std::optional<double> unresolved_peak_hz(const milling::SampledReceptance& tip) {
+  constexpr double least_lines = 4.0;
+  const Eigen::VectorXd& hz = tip.frequency_hz;
+  if (hz.size() < 2) return std::nullopt;
+  const double step = std::log(hz(hz.size() - 1) / hz(0)) / static_cast<double>(hz.size() - 1);
+  for (const milling::Resonance& peak : milling::resonances(tip))
+    if (2.0 * peak.half_width_hz < least_lines * step * peak.frequency_hz) return peak.frequency_hz;
+  return std::nullopt;
 }
 
 SwappedResponse swapped_response(const setup::ToolSwap& swap, const Vector3d& axis,
@@ -198,11 +234,11 @@ SwappedResponse swapped_response(const setup::ToolSwap& swap, const Vector3d& ax
 
 SwappedTip swapped_tip(const setup::CutSetup& source) {
   const setup::ToolSwap& swap = *source.tool->swap;
-  return in_space(swapped_response(swap, source.cutting->tool_axis, with_reference(swap)));
+  return in_space(swapped_response(swap, source.cutting->tool_axis, with_reference(swap, source.cutting->tool_axis)));
 }
 
 std::vector<SwappedTip> swapped_tips(const setup::CutSetup& source, const std::vector<dynamics::ModalTable>& tables) {
-  const dynamics::ResponseModel expected = with_reference(*source.tool->swap);
+  const dynamics::ResponseModel expected = with_reference(*source.tool->swap, source.cutting->tool_axis);
   const Swap swap = swap_on(*source.tool->swap, source.cutting->tool_axis, expected);
   std::vector<SwappedTip> tips(tables.size());
   core::parallel_for(tables.size(),

@@ -2,6 +2,7 @@
 // The tip of the case's tool from FRFs that were measured with another tool in its place, or from the modes of the
 // robot that carries it.
 
+#include <optional>
 #include <vector>
 
 #include "coupling/tool_swap.hpp"
@@ -35,8 +36,8 @@ struct SwappedResponse {
                                                const dynamics::ResponseModel& measured);
 
 /// swapped_response() on the lines of the first file, or on lines_of_modes() where the swap has a table of modes in
-/// place of files. Throws as it does, InputError for FRFs that are missing (named) and a table that was not given
-/// (setup::identify()), and DataError as io::resample().
+/// place of files, doubled up to 4000 until unresolved_peak_hz() finds none. Throws as it does, InputError for FRFs
+/// that are missing (named) and a table that was not given (setup::identify()), and DataError as io::resample().
 [[nodiscard]] SwappedTip swapped_tip(const setup::CutSetup& source);
 
 /// The tips of other tables of modes in place of the swap's own, on its lines. Errors as swapped_tip(). Cost: a swap of
@@ -45,7 +46,13 @@ struct SwappedResponse {
                                                    const std::vector<dynamics::ModalTable>& tables);
 
 /// Lines that resolve every mode of a swap's table, in equal steps of ln f: four within the half-power width 2ζf of the
-/// least damped of them, from half the lowest frequency to swap.to_hz, or to the highest frequency; 4000 at most.
+/// least damped of them, up to swap.to_hz, or to the highest frequency; 4000 at most. The first is half of f in 1/f² =
+/// 1/f_1² + 1/f_2² (Dunkerley 1894), with the lowest mode f_1 of the table and the lowest f_2 of the target with its
+/// root held rigidly: no more than half of either, for the lowest mode with the target lies below both. The modes are
+/// those with the reference tool: swapped_tip() takes twice as many lines until the target's peaks are resolved, too.
 [[nodiscard]] dynamics::FrequencyAxis lines_of_modes(const setup::ToolSwap& swap);
+
+/// The first peak of a tip on lines in equal steps of ln f that has less than four of them in its half-power width, Hz.
+[[nodiscard]] std::optional<double> unresolved_peak_hz(const milling::SampledReceptance& tip);
 
 }  // namespace thinwall::study

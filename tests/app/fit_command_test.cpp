@@ -217,7 +217,6 @@ TEST_F(Fit, TakesEachNamedPoleOnceAndWithinTheBand) {
   EXPECT_EQ(with("60 Hz, 60 Hz").code, 2);
   EXPECT_EQ(with("10 Hz, 60 Hz").code, 2);
   EXPECT_NE(with("60 Hz, 500 Hz").err.find("500 Hz is outside of the band from 20 to 400 Hz"), std::string::npos);
-  EXPECT_EQ(with("").code, 0);  // none is named
   // Two names near one pole of the diagram start apart.
   std::ostringstream close;
   close << 0.99 * truth[0].frequency_hz << " Hz, " << 1.01 * truth[0].frequency_hz << " Hz, " << truth[1].frequency_hz
@@ -243,6 +242,12 @@ TEST_F(Fit, RefusesWordsThatSayNothingByThemselves) {
   EXPECT_NE(refused({"--variable", "H"}).find("--frequency-variable"), std::string::npos);
   EXPECT_NE(refused({"--responses", "1.x"}).find("--forces"), std::string::npos);
   EXPECT_NE(refused({"--exclude", ""}).find("--exclude"), std::string::npos);
+  for (const char* option : {"--swap", "--geometry"})
+    EXPECT_TRUE(refused({option, ""}).starts_with(std::string("thinwall: ") + option + ": the name is empty"))
+        << option;
+  for (const char* option : {"--from", "--to", "--poles", "--terms", "--residues"})
+    EXPECT_TRUE(refused({option, ""}).starts_with(std::string("thinwall: ") + option + ": the value is empty"))
+        << option;
   const Outcome empty = command({"fit", path("robot.uff"), "--from", "399.9 Hz", "--out", path("out")});
   EXPECT_EQ(empty.code, 3);
   EXPECT_NE(empty.err.find("widen it: the file has 700 from 20 to 400 Hz"), std::string::npos) << empty.err;

@@ -10,73 +10,23 @@
 #include <fstream>
 
 #include "app/fit/fit_command.hpp"
+#include "core/atomic_file.hpp"
 #include "core/dense_eigenvalues.hpp"
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
-#include "io/frf/modal_table_csv.hpp"
-#include "io/frf/uff.hpp"
 #include "milling/chart/sampled_stability.hpp"
 #include "robot/modal_table.hpp"
 #include "setup/identified/identify.hpp"
 #include "setup/milling_process.hpp"
+#include "study/lobes/drawn_structures.hpp"
 #include "study/lobes/lobes_stage.hpp"
 #include "study/lobes/tool_swap.hpp"
-#include "tests/system/run_in_folder.hpp"
-#include "tests/verification/tool_swap/machine.hpp"
+#include "tests/system/machine_in_postures.hpp"
 
 namespace thinwall::tests::swap_on_robot_test {
 namespace {
 
-namespace fs = std::filesystem;
-namespace machine = coupling::testing;
-using Complex = std::complex<double>;
-using Eigen::Vector3d;
-
-constexpr double S = 0.02;
-
-/// The machine in posture u, without the rest of its tool: bearings that stiffen along x and soften along y.
-dynamics::SpatialModel machine_at(double u) {
-  fem::BeamFrame frame;
-  frame.nodes = {{0.06 * Vector3d::UnitZ(), "nose"},
-                 {0.10 * Vector3d::UnitZ()},
-                 {0.30 * Vector3d::UnitZ()},
-                 {Vector3d::Zero(), "holder"}};
-  frame.segments = {{0, 1, dynamics::section(machine::steel(0.060)), 1},
-                    {1, 2, dynamics::section(machine::steel(0.055, 0.020)), 2},
-                    {3, 0, dynamics::section(machine::steel(0.034, 0.012)), 2}};
-  frame.springs = machine::spindle_frame().springs;
-  for (fem::NodeSpring& bearing : frame.springs) {
-    bearing.stiffness(0, 0) *= 1.0 + 0.1 * u;
-    bearing.stiffness(1, 1) *= 1.0 - 0.05 * u;
-    bearing.damping *= 3.0 + 0.3 * u;
-  }
-  dynamics::SpatialModel all = fem::spatial_model(frame);
-  all.C += 1e-6 * all.K;
-  return all;
-}
-
-/// The machine in posture u with a tool, which has no damping of its own.
-dynamics::SpatialModel assembled(double u, const dynamics::SpatialModel& tool) {
-  coupling::Contact held{"root", "holder", {}, {}};
-  for (const auto kind : {dynamics::DofKind::translation, dynamics::DofKind::rotation}) {
-    for (int axis = 0; axis < 3; ++axis) {
-      held.springs.emplace_back();
-      held.springs.back().direction = Vector3d::Unit(axis);
-      held.springs.back().kind = kind;
-    }
-  }
-  return coupling::couple({tool, machine_at(u)}, {held});
-}
-
-/// Steel of 16 mm, 90 mm out; the elements are those of the case's own beams, so that only the swap is between them.
-dynamics::SpatialModel reference() {
-  return fem::tool_beam({{S, machine::steel(0.016), 8}, {0.09 - S, machine::steel(0.016), 8}}, {"1", "1a", "root"},
-                        Vector3d::UnitZ());
-}
-/// Carbide of 12 mm, 65 mm out.
-dynamics::SpatialModel target() {
-  return fem::tool_beam({{0.065, machine::carbide(0.012), 8}}, {"1", "root"}, Vector3d::UnitZ());
-}
+using namespace swap_on_robot;
 
 /// A line of a table of modes: frequency, damping ratio, right and left vectors at 1X, 1Y, aX, aY.
 void write_row(std::ofstream& file, double hz, double zeta, const Eigen::VectorXcd& right,
@@ -136,37 +86,9 @@ void write_table(const fs::path& path, double u, double up_to_hz, bool with_rest
   }
 }
 
-std::string tools(const std::string& target) {
-  return R"([tool]
-teeth = 2
-diameter = "12 mm"
-length = "40 mm"
-[tool.swap]
-up = "1a"
-distance = "20 mm"
-to = "6 kHz"
-[[tool.swap.reference]]
-length = "90 mm"
-outer_diameter = "16 mm"
-youngs_modulus = "210 GPa"
-poisson_ratio = 0.3
-density = "7850 kg/m^3"
-[[tool.swap.target]]
-)" + target +
-         R"([cutting]
-radial_depth = "12 mm"
-Kt = "800 N/mm^2"
-Kr = "240 N/mm^2"
-[lobes]
-from = "8000 rpm"
-to = "20000 rpm"
-count = 8
-most_added = 0
-)";
-}
-
-const std::string carbide = R"(length = "65 mm"
-outer_diameter = "12 mm"
+/// Six millimetres thick, 120 mm out: held rigidly it would be at 370 Hz.
+const std::string slender = R"(length = "120 mm"
+outer_diameter = "6 mm"
 youngs_modulus = "580 GPa"
 density = "14400 kg/m^3"
 )";
@@ -216,10 +138,6 @@ double off_truth(const milling::SampledReceptance& tip, double u) {
     largest = std::max(largest, truth.H[line].norm());
   }
   return worst / largest;
-}
-
-fs::path own_folder() {
-  return scratch(std::string("swap_on_robot_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
 }
 
 Case identified(const std::string& text, const fs::path& folder) {
@@ -310,47 +228,61 @@ TEST(SwapOnRobot, AtAPostureBetweenTheTappedOnesHasTheDepthsOfTheMachine) {
   EXPECT_LT(off, 0.005);
   EXPECT_LT(worst, 0.005);
   EXPECT_GE(within + 1, rpm.size()) << "ranges of 95 %";
+  for (std::size_t i = 0; i < rpm.size(); ++i)
+    EXPECT_LT(high[i] - low[i], 0.02 * depth[i]) << "six postures leave less than that open";
 }
 
-/// The frequencies and damping ratios of modes from 500 Hz to 3 kHz by rising frequency.
-std::vector<std::pair<double, double>> modes_of(const dynamics::ModalTable& table) {
-  std::vector<std::pair<double, double>> modes;
-  for (const dynamics::ModalTableRow& row : table.rows) {
-    if (row.frequency_hz > 500.0 && row.frequency_hz < 3000.0) modes.emplace_back(row.frequency_hz, row.damping_ratio);
-  }
-  std::ranges::sort(modes);
-  return modes;
-}
-
-/// FRFs with the rod whose rod is exchanged before the fit give the modes of the machine with the carbide tool.
-TEST(SwapOnRobot, BeforeAFitGivesTheModesOfTheOtherTool) {
+/// The change of the lines that is handed to the ranges is that of a draw's own modes, swapped by themselves.
+TEST(SwapOnRobot, ADrawChangesTheLinesByItsOwnSwap) {
   const fs::path folder = own_folder();
-  const dynamics::FrequencyAxis axis = dynamics::linear_axis(300.0, 3500.0, 801);
-  const auto with = [&](const dynamics::SpatialModel& tool, const std::vector<std::string>& dofs) {
-    return machine::only(dynamics::direct_response(assembled(1.0, tool), axis), dofs);
-  };
-  io::write_uff(folder / "rod.uff", with(reference(), {"1.x", "1.y", "1a.x", "1a.y"}), {});
-  io::write_uff(folder / "carbide.uff", with(target(), {"1.x", "1.y"}), {});
-  std::ofstream(folder / "tools.toml") << tools(carbide);
-  const auto fitted = [&](const std::string& file, const std::string& swap) {
-    FitRequest request;
-    request.input.sources = {(folder / file).string()};
-    request.swap = swap;
-    request.order = 16;
-    request.out = (folder / "fit").string();
-    const std::string said = fit_files(request);
-    EXPECT_EQ(said.find("exchanged for") != std::string::npos, !swap.empty()) << said;
-    return modes_of(io::read_modal_table(folder / "fit" / "modal_table.csv",
-                                         {io::modal_unit("sqrt(s/kg)"), io::modal_unit("sqrt(s/kg)"), {}}));
-  };
-  const auto exchanged = fitted("rod.uff", (folder / "tools.toml").string()), wanted = fitted("carbide.uff", "");
-  ASSERT_EQ(exchanged.size(), wanted.size());
-  EXPECT_GE(wanted.size(), 3U);
-  for (std::size_t k = 0; k < wanted.size(); ++k) {
-    EXPECT_NEAR(exchanged[k].first, wanted[k].first, 1e-5 * wanted[k].first);
-    EXPECT_NEAR(exchanged[k].second, wanted[k].second, 1e-4 * wanted[k].second);
+  write_postures(folder, 6, 16e3);
+  const Case source = identified(postures(1.3, carbide), folder);
+  const milling::ToolFrame frame = setup::milling_process(source).frame;
+  const auto changes = study::drawn_swaps(source, frame);
+  ASSERT_EQ(changes.size(), setup::draws_of(source));
+  ASSERT_GE(changes.size(), 2U);
+  const std::size_t last = changes.size() - 1;
+  setup::CutSetup cut = source;
+  setup::SupportSetup support = source;
+  setup::take_draw(last, cut, support);
+  const study::SwappedTip expected = study::swapped_tip(source);
+  const dynamics::ResponseModel tip =
+      study::swapped_response(
+          *cut.tool->swap, Vector3d::UnitZ(),
+          dynamics::to_response(robot::modal_model(*cut.tool->swap->table), {expected.tip.frequency_hz}))
+          .tip;
+  const Eigen::Matrix3d R = frame.rotation();
+  double largest = 0.0;
+  for (std::size_t line = 0; line < tip.H.size(); ++line) {
+    Eigen::Matrix3cd change = -expected.tip.H[line];
+    change.topLeftCorner<2, 2>() += tip.H[line];
+    EXPECT_LT((changes[last][line] - R.transpose() * change * R).norm(), 1e-9 * expected.tip.H[line].norm());
+    largest = std::max(largest, change.norm() / expected.tip.H[line].norm());
   }
-  EXPECT_THROW((void)fitted("carbide.uff", (folder / "tools.toml").string()), core::UsageError) << "one point alone";
+  EXPECT_GT(largest, 1e-4) << "a draw is another one";
+}
+
+/// A slender target has a lower frequency than the lowest mode with the rod.
+TEST(SwapOnRobot, LinesBeginBelowASlenderTarget) {
+  const fs::path folder = own_folder();
+  write_table(folder / "modes.csv", 1.0, 12e3);
+  const Case source = identified(one_table(slender), folder);
+  const milling::SampledReceptance tip = study::swapped_tip(source).tip;
+  const auto peaks = milling::resonances(tip);
+  ASSERT_FALSE(peaks.empty());
+  for (const dynamics::ModalTableRow& row : source.tool->swap->table->rows)
+    EXPECT_LT(peaks.front().frequency_hz, row.frequency_hz);
+  EXPECT_LE(tip.frequency_hz(0), 0.5 * peaks.front().frequency_hz);
+}
+
+/// A target with less damping than any mode with the rod has four lines in a peak's width, too.
+TEST(SwapOnRobot, LinesResolveATargetOfLittleDamping) {
+  const fs::path folder = own_folder();
+  write_table(folder / "modes.csv", 1.0, 12e3);
+  const Case source = identified(one_table(replaced(slender, "120 mm", "80 mm")), folder);
+  const milling::SampledReceptance tip = study::swapped_tip(source).tip;
+  EXPECT_FALSE(study::unresolved_peak_hz(tip));
+  EXPECT_GT(tip.frequency_hz.size(), study::lines_of_modes(*source.tool->swap).size()) << "the modes need fewer";
 }
 
 /// What is missing is told in one line at its key.
@@ -358,21 +290,43 @@ TEST(SwapOnRobot, TellsWhatIsMissing) {
   const fs::path folder = own_folder();
   write_table(folder / "modes.csv", 0.0, 8e3);
   const auto told = [&](const std::string& from, const std::string& to, const std::string& part) {
-    std::string text = one_table(carbide);
-    text.replace(text.find(from), from.size(), to);
     try {
-      (void)parse_case(text, folder);
+      (void)parse_case(replaced(one_table(carbide), from, to), folder);
       ADD_FAILURE() << "accepted, though " << part;
     } catch (const core::Error& error) {
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
     }
   };
   told("up = \"1a\"", "up = \"2\"", "tool.swap.up: \"2\" is no point of the robot's tables");
+  told("up = \"1a\"", "up = \"1\"", "tool.swap.up: \"1\" is robot.table_point, the tip");
   told("up = \"1a\"", "up = \"1a\"\ntip = \"1\"", "tool.swap.tip: ");
   told("up = \"1a\"", "up = \"1a\"\nrotations = \"rank_one\"", "tool.swap.rotations: ");
   told("table = ", "cross_terms = false\ntable = ", "robot.cross_terms: ");
   told("carries = \"tool\"\n", "", "tool.swap: needs [[tool.swap.measured]]");
   told("[cutting]", "[cutting]\ntool_axis = \"x\"", "two at each");
+  const std::string robot_alone =
+      replaced(one_table(carbide), "[lobes]\nfrom = \"8000 rpm\"\nto = \"20000 rpm\"\ncount = 8\nmost_added = 0\n", "");
+  EXPECT_NO_THROW((void)parse_case(robot_alone, folder));
+  EXPECT_THROW((void)parse_case(replaced(robot_alone, "up = \"1a\"", "up = \"zz\""), folder), core::Error)
+      << "also where nothing is charted";
+}
+
+/// The second point may have the name that a tip has unless it is named.
+TEST(SwapOnRobot, TakesAnyNamesOfTheTwoPoints) {
+  const fs::path folder = own_folder();
+  write_table(folder / "modes.csv", 0.0, 8e3);
+  const study::SwappedTip usual = study::swapped_tip(identified(one_table(carbide), folder));
+  std::string table = core::read_file(folder / "modes.csv");
+  for (const auto& [from, to] :
+       {std::pair("_1X", "_TX"), std::pair("_1Y", "_TY"), std::pair("_1aX", "_1X"), std::pair("_1aY", "_1Y")}) {
+    for (int i = 0; i < 4; ++i) table = replaced(table, from, to);
+  }
+  std::ofstream(folder / "modes.csv") << table;
+  const std::string named =
+      replaced(replaced(one_table(carbide), "up = \"1a\"", "up = \"1\""), "table = ", "table_point = \"T\"\ntable = ");
+  const study::SwappedTip other = study::swapped_tip(identified(named, folder));
+  ASSERT_EQ(other.tip.H.size(), usual.tip.H.size());
+  for (std::size_t line = 0; line < usual.tip.H.size(); ++line) EXPECT_EQ(other.tip.H[line], usual.tip.H[line]);
 }
 
 }  // namespace
