@@ -283,7 +283,7 @@ double next_look(const HelicalSearch& search, double depth_m, const StabilityOpt
   const double next = search.next_depth(depth_m);
   if (depth_m > 0.0 || options.follow != 1.0 || !options.expected_depth_m) return next;
   const double near = 1.2 * *options.expected_depth_m;
-  return near < 0.5 * next ? near : next;
+  return near > 0.0 && near < 0.5 * next ? near : next;
 }
 
 /// The depths from 0 to where the crossings are wanted, to where what is found no longer explains the counts, or to
