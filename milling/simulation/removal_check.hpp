@@ -33,7 +33,7 @@ class RemovalCheck {
     }
     if (!(*cleared_m2 - *first_m2_ > least_m2_)) return;
     error_ = (chips_m2 - first_chips_m2_) / (*cleared_m2 - *first_m2_) - 1.0;
-    if (!broken_s_ && std::abs(*error_) >= most_removal_error) broken_s_ = time_s;
+    if (!broken_s_ && !(std::abs(*error_) < most_removal_error)) broken_s_ = time_s;  // NaN is no balance either
   }
 
   /// Chips over cleared area, less one, at the last look; none where an area is not known.

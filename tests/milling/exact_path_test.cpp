@@ -164,6 +164,10 @@ TEST(RemovalCheck, LooksAfterTheLastTurnAndBeginsWhereBothAreasAreKnown) {
   EXPECT_EQ(check.broken_s(), 3.0);
   check.look(4.0, std::nullopt, 4.0);
   EXPECT_FALSE(check.error());
+  RemovalCheck lost(10, 0.0);
+  lost.look(0.0, 0.0, 0.0);
+  lost.look(NAN, 1.0, 1.0);
+  EXPECT_EQ(lost.broken_s(), 1.0) << "chips that are no number";
 }
 
 /// Neither a mean deflection nor a beginning that is forgotten widens what the paths of the last turns may reach.
