@@ -338,4 +338,15 @@ ForcedVibration forced_vibration(const RelativeStructure& structure, const Milli
       options);
 }
 
+Eigen::Vector3d displacement_at_exit(const ForcedVibration& motion, const MillingProcess& process) {
+  constexpr double hair = 1e-9;  // rad
+  const double pitch = process.cutter.pitch_rad();
+  double rotation = std::fmod(process.engagement.arc_rad(), pitch);
+  if (rotation < hair) rotation = pitch;  // the entry of a tooth, which ends the period
+  Eigen::Index nearest = 0;
+  (motion.rotation_rad.array() - rotation).abs().minCoeff(&nearest);
+  if (nearest > 0 && motion.rotation_rad(nearest) - motion.rotation_rad(nearest - 1) < hair) --nearest;
+  return motion.displacement_m.col(nearest);
+}
+
 }  // namespace thinwall::milling

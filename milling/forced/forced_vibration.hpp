@@ -62,6 +62,11 @@ struct ForcedVibration {
                                                double spindle_speed_rpm, double depth_m, double feed_per_tooth_m,
                                                const ForcedOptions& options = {});
 
+/// The displacement of tool minus part where the tip of a tooth leaves the first arc, m, tool axes: before its force
+/// ends, and before the next tooth enters if that is the same moment, for a residual follows either at once. Of equal
+/// teeth whose motion is there.
+[[nodiscard]] Eigen::Vector3d displacement_at_exit(const ForcedVibration& motion, const MillingProcess& process);
+
 /// Every violation, empty if there is none.
 [[nodiscard]] std::vector<std::string> validate(const ForcedOptions& options);
 

@@ -150,18 +150,6 @@ bool one_entry(const milling::MillingProcess& process) {
   return straight && process.cutter.envelope.straight() && process.further_engagements.empty();
 }
 
-/// The place in closed form where a tooth leaves the cut; before the force ends, and the next tooth enters, of which a
-/// residual may be left.
-Eigen::Vector3d exit_of(const milling::ForcedVibration& forced, const milling::MillingProcess& process) {
-  constexpr double hair = 1e-9;  // rad
-  double rotation = std::fmod(process.engagement.arc_rad(), process.cutter.pitch_rad());
-  if (rotation < hair) rotation = process.cutter.pitch_rad();  // with the entry of a tooth, which ends the period
-  Eigen::Index nearest = 0;
-  (forced.rotation_rad.array() - rotation).abs().minCoeff(&nearest);
-  if (nearest > 0 && forced.rotation_rad(nearest) - forced.rotation_rad(nearest - 1) < hair) --nearest;
-  return forced.displacement_m.col(nearest);
-}
-
 /// The largest of three numbers, NaN if one of them is.
 double largest_of(double a, double b, double c) {
   return Eigen::Vector3d(a, b, c).maxCoeff<Eigen::PropagateNaN>();
@@ -177,7 +165,7 @@ double difference_of(const milling::SimulatedCut& cut, const milling::ForcedVibr
     return largest_of(force, (cut.displacement_m.range() - forced.peak_to_peak_m).cwiseAbs().maxCoeff() / size, 0.0);
   const milling::ToothPass& last = cut.passes.back();
   return largest_of(force, (last.entry_m - forced.displacement_m.col(0)).norm() / size,
-                    (last.exit_m - exit_of(forced, process)).norm() / size);
+                    (last.exit_m - milling::displacement_at_exit(forced, process)).norm() / size);
 }
 
 /// The closed form beside a simulated motion; none where it does not hold: at an unstable point, of teeth that differ,

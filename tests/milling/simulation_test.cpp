@@ -187,6 +187,41 @@ TEST(StableCut, MovesAsInClosedForm) {
   }
 }
 
+/// Entries and exits of several teeth at once, with a residual that lets the displacement jump there: arcs of 0.6, 1
+/// and 1.3 pitches, of which the second ends where the next tooth enters.
+TEST(StableCut, LeavesAsInClosedFormWhereOthersEnter) {
+  RelativeStructure structure = oscillator();
+  structure.R.diagonal() << 1e-9, 2e-9, 0.0;
+  for (const double pitches : {0.6, 1.0, 1.3}) {
+    MillingProcess process = down_milling(0.1);
+    process.cutter.teeth = 4;
+    process.engagement = {0.3, 0.3 + pitches * 0.5 * pi};
+    const SimulatedCut cut =
+        simulate(structure, process, process.coefficients, {11000.0, 0.05e-3, feed_m}, turns(800, 4, 400));
+    const ForcedVibration forced =
+        forced_vibration(structure, process, 11000.0, 0.05e-3, feed_m, {.error_tolerance = 1e-10});
+    const double size = forced.peak_to_peak_m.norm();
+    EXPECT_EQ(cut.motion.motion, Motion::periodic);
+    EXPECT_LE((cut.passes.back().entry_m - forced.displacement_m.col(0)).norm(), 1e-9 * size) << pitches;
+    EXPECT_LE((cut.passes.back().exit_m - displacement_at_exit(forced, process)).norm(), 1e-9 * size) << pitches;
+  }
+}
+
+/// A slot of five straight teeth, two or three of which cut at a time: the fourth order of the step.
+TEST(StableCut, OfManyTeethConvergesToTheClosedForm) {
+  MillingProcess process = down_milling(1.0);
+  process.cutter.teeth = 5;
+  const ForcedVibration forced =
+      forced_vibration(oscillator(), process, 11000.0, 0.03e-3, feed_m, {.error_tolerance = 1e-10});
+  const auto error = [&](int steps) {
+    const SimulatedCut cut = simulated(process, {11000.0, 0.03e-3, feed_m}, turns(800, 4, steps));
+    return (cut.passes.back().entry_m - forced.displacement_m.col(0)).norm() / forced.peak_to_peak_m.norm();
+  };
+  const double at_100 = error(100), at_400 = error(400);
+  EXPECT_LE(at_400, 1e-9);
+  EXPECT_GT(std::log(at_100 / at_400) / std::log(4.0), 3.8);
+}
+
 /// A helix and unequal pitches, for which regeneration stays; edge forces. Within this arc chips are thick, so that no
 /// contact is lost.
 TEST(StableCut, MovesAsInClosedFormWithHelixAndUnequalPitches) {

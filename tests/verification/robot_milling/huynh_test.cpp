@@ -18,13 +18,14 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double rpm = 18700.0;
 constexpr double feed_m = 3.7 / (2.0 * rpm);  // 3700 mm/min, two teeth
-constexpr double depth_m = 1.6e-3, radial_m = 4e-3;
+constexpr double turn_m = 2.0 * feed_m;
+constexpr double depth_m = 1.6e-3, radial_m = 4e-3, radius_m = 5e-3;
 
 /// Tool of 10 mm, two teeth at 170° and 190°, helix 30°; aluminium 6060 T6. In a transversal pass the feed is y of the
 /// robot.
 MillingProcess process(MillingDirection direction, bool transversal) {
   MillingProcess p;
-  p.cutter = {2, 0.01};
+  p.cutter = {2, 2.0 * radius_m};
   p.cutter.pitches_rad = {170.0 * pi / 180.0, 190.0 * pi / 180.0};
   p.cutter.helices_rad = {pi / 6.0, pi / 6.0};
   p.coefficients = {661.513e6, 253.458e6, 0.0, 0.0, 0.0, 0.0};
@@ -54,7 +55,7 @@ SimulatedCut pass(const RelativeStructure& structure, MillingDirection direction
   options.steps.discs = discs;
   options.recorded_turns = options.traced_turns = 12;
   options.wall.turns = 12;
-  options.wall.heights_m = {0.5 * depth_m};
+  options.wall.heights_m = {0.0, 0.5 * depth_m};
   options.samples_a_turn = samples_a_turn;
   options.first_force_n = mean_force_n;
   return simulate_exact_path(structure, p, p.coefficients, {rpm, depth_m, feed_m},
@@ -89,35 +90,34 @@ TEST(Huynh2017, HasTheForcesOfARigidTool) {
   }
 }
 
-/// Passes of a rigid tool leave parabolas x²/2R', R' = R/(1 ± 2 v_f/(R Ω)), + in down-milling, at the spacings a and b
-/// of the pitches: R_a and R_q of e = x²/2R' for |x| ≤ a/2 and b/2 by quadrature, R_t = b²/8R'. Terms of the order of
-/// (v_f/(R Ω))² = 4e-5 are left out, three of which R_q and R_t feel.
+struct Roughness {
+  double R_a_m, R_q_m, R_t_m;
+};
+
+/// Passes leave parabolas x²/2R', R' = R/(1 ± 2 v_f/(R Ω)), + in down-milling; those of one tooth begin `spacing_m`
+/// behind those of the other, and are higher by `step_m`. Terms of the order of (v_f/(R Ω))² = 4e-5 are left out.
+Roughness parabolas(MillingDirection direction, double spacing_m, double step_m) {
+  constexpr double drift = turn_m / (2.0 * pi * radius_m);
+  const double curvature = (1.0 + (direction == MillingDirection::down ? 2.0 : -2.0) * drift) / radius_m;
+  Eigen::ArrayXd left = Eigen::ArrayXd::Ones(200000);
+  for (Eigen::Index i = 0; i < left.size(); ++i) {
+    for (const double turn : {-1.0, 0.0, 1.0}) {
+      const double x = turn_m * ((static_cast<double>(i) + 0.5) / static_cast<double>(left.size()) - turn);
+      left(i) = std::min({left(i), 0.5 * curvature * x * x, 0.5 * curvature * std::pow(x - spacing_m, 2) + step_m});
+    }
+  }
+  const Eigen::ArrayXd about = left - left.mean();
+  return {about.abs().mean(), std::sqrt(about.square().mean()), about.maxCoeff() - about.minCoeff()};
+}
+
 TEST(Huynh2017, LeavesTheMarksOfTheFeedByARigidTool) {
-  constexpr double turn_m = 2.0 * feed_m, radius_m = 5e-3;
-  constexpr double drift = feed_m * 2.0 * rpm / 60.0 / (radius_m * rpm * 2.0 * pi / 60.0);
   for (const auto direction : {MillingDirection::down, MillingDirection::up}) {
-    const double curvature = (1.0 + (direction == MillingDirection::down ? 2.0 : -2.0) * drift) / radius_m;
-    double mean = 0.0, R_a = 0.0, R_q = 0.0;
-    constexpr int points = 10000;
-    const auto over_profile = [&](const auto& take) {
-      for (const double pitch : {170.0 / 360.0, 190.0 / 360.0}) {
-        for (int i = 0; i < points; ++i) {
-          const double x = (i + 0.5) / points * 0.5 * pitch * turn_m;
-          take(0.5 * curvature * x * x, pitch / points);
-        }
-      }
-    };
-    over_profile([&](double e, double weight) { mean += weight * e; });
-    over_profile([&](double e, double weight) {
-      R_a += weight * std::abs(e - mean);
-      R_q += weight * (e - mean) * (e - mean);
-    });
+    const Roughness expected = parabolas(direction, 170.0 / 360.0 * turn_m, 0.0);
     const SimulatedCut cut = pass(rigid(), direction, false, Eigen::Vector3d::Zero(), 2, 720, 12);
-    ASSERT_EQ(cut.walls.size(), 1u);
-    EXPECT_NEAR(cut.walls[0].R_a_m, R_a, 1e-4 * R_a);
-    EXPECT_NEAR(cut.walls[0].R_q_m, std::sqrt(R_q), 2e-4 * std::sqrt(R_q));
-    const double R_t = std::pow(190.0 / 360.0 * turn_m, 2) / 8.0 * curvature;
-    EXPECT_NEAR(cut.walls[0].R_t_m, R_t, 2e-4 * R_t);
+    ASSERT_EQ(cut.walls.size(), 2u);
+    EXPECT_NEAR(cut.walls[0].R_a_m, expected.R_a_m, 1e-4 * expected.R_a_m);
+    EXPECT_NEAR(cut.walls[0].R_q_m, expected.R_q_m, 2e-4 * expected.R_q_m);
+    EXPECT_NEAR(cut.walls[0].R_t_m, expected.R_t_m, 2e-4 * expected.R_t_m);
     EXPECT_LT(std::abs(cut.removal_error.value_or(NAN)), 2e-4);
   }
 }
@@ -127,30 +127,57 @@ struct Expected {
   bool transversal;
   double force_x_n, force_y_n;
   double deviation_x_um, deviation_y_um, ripple_y_um, wall_um, R_a_um;
+  double R_a_tolerance = 5e-3;
 };
+
+/// The wall of two passes of a periodic motion in up-milling, where a tooth enters at the wall: its place there is that
+/// of its parabola, whose lowest point a motion along the normal shifts by ẏ/Ω.
+Roughness wall_of(const ToothPass& a, const ToothPass& b) {
+  constexpr double turns_s = rpm / 60.0;
+  const auto along_m = [](const ToothPass& p) {
+    return p.entry_s * turns_s * turn_m + p.entry_m.x() + p.entry_m_s.y() / (2.0 * pi * turns_s);
+  };
+  return parabolas(MillingDirection::up, along_m(b) - along_m(a), a.entry_m.y() - b.entry_m.y());
+}
+
+/// The robot's vibration makes the teeth of a transversal pass cut a quarter of a micrometre more and less: the wall is
+/// that of their passes, whatever steps they were marched by.
+TEST(Huynh2017, LeavesTheWallOfItsPasses) {
+  for (const bool transversal : {false, true}) {
+    const SimulatedCut cut = pass(robot_tip(), MillingDirection::up, transversal, {-23.63, 13.37, 0.0}, 1800, 240, 2);
+    ASSERT_EQ(cut.walls.size(), 2u);
+    const Roughness expected = wall_of(cut.passes[cut.passes.size() - 2], cut.passes.back());
+    EXPECT_NEAR(cut.walls[0].R_a_m, expected.R_a_m, 2e-4 * expected.R_a_m);
+    EXPECT_NEAR(cut.walls[0].R_q_m, expected.R_q_m, 2e-4 * expected.R_q_m);
+    EXPECT_NEAR(cut.walls[0].R_t_m, expected.R_t_m, 2e-4 * expected.R_t_m);
+  }
+}
 
 /// The linearised robot at the posture of the pass's middle, 720 steps a turn and 16 discs outside this project, within
 /// 0.2 % of half of both. There a wall is positive where material is left. The robot starts at rest under the mean
 /// force, for its slow modes (20 Hz, a damping ratio of 0.013) need five seconds to settle.
+/// The roughness of the last pass there, R_a 0.1122, R_q 0.1243, R_t 0.4212 µm, is none of two passes that repeat
+/// themselves: those with this R_q have R_t 0.4081 µm. Here they have R_a 0.1115 µm, as parabolas() says of them.
 TEST(Huynh2017, DeviatesAsTheLinearRobotOfAnotherProgram) {
   constexpr auto down = MillingDirection::down, up = MillingDirection::up;
   const bool slow = std::getenv("THINWALL_SLOW") != nullptr;
-  for (const Expected& e : {Expected{down, false, 8.75178, 25.8573, 1.55428, 7.16813, 0.0600362, 7.25899, 0.0645099},
-                            Expected{up, false, -23.6353, 13.3749, -4.19745, 3.70776, 0.0354718, -3.6343, 0.0627983},
-                            Expected{down, true, 8.74508, 25.8725, 2.4243, 4.59499, 1.3935, 5.13402, 0.0644537},
-                            Expected{up, true, -23.6313, 13.3658, -6.5514, 2.37384, 0.776016, -2.33423, 0.112204}}) {
+  for (const Expected& e :
+       {Expected{down, false, 8.75178, 25.8573, 1.55428, 7.16813, 0.0600362, 7.25899, 0.0645099},
+        Expected{up, false, -23.6353, 13.3749, -4.19745, 3.70776, 0.0354718, -3.6343, 0.0627983},
+        Expected{down, true, 8.74508, 25.8725, 2.4243, 4.59499, 1.3935, 5.13402, 0.0644537},
+        Expected{up, true, -23.6313, 13.3658, -6.5514, 2.37384, 0.776016, -2.33423, 0.112204, 7e-3}}) {
     if (!slow && e.direction == up) continue;
     const SimulatedCut cut =
         pass(robot_tip(), e.direction, e.transversal, {e.force_x_n, e.force_y_n, 0.0}, slow ? 1500 : 300, 720, 12);
     EXPECT_NEAR(cut.mean_force_n.y(), e.force_y_n, 2e-3 * e.force_y_n);
     EXPECT_NEAR(1e6 * cut.mean_displacement_m.x(), e.deviation_x_um, 5e-3 * std::abs(e.deviation_x_um));
     EXPECT_NEAR(1e6 * cut.mean_displacement_m.y(), e.deviation_y_um, 5e-3 * e.deviation_y_um);
-    ASSERT_EQ(cut.walls.size(), 1u);
-    EXPECT_NEAR(-1e6 * cut.walls[0].mean_m, e.wall_um, 5e-3 * std::abs(e.wall_um));
+    ASSERT_EQ(cut.walls.size(), 2u);
+    EXPECT_NEAR(-1e6 * cut.walls[1].mean_m, e.wall_um, 5e-3 * std::abs(e.wall_um));
     // What is left of the slow modes moves the tool from turn to turn by some 0.03 µm unless there is time to settle.
     const double unsettled_um = slow ? 0.0 : 0.05;
     EXPECT_NEAR(1e6 * cut.displacement_m.range().y(), e.ripple_y_um, 5e-3 * e.ripple_y_um + unsettled_um);
-    EXPECT_NEAR(1e6 * cut.walls[0].R_a_m, e.R_a_um, 1e-2 * e.R_a_um + 0.1 * unsettled_um);
+    EXPECT_NEAR(1e6 * cut.walls[1].R_a_m, e.R_a_um, e.R_a_tolerance * e.R_a_um + 0.1 * unsettled_um);
   }
 }
 
