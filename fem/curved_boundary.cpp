@@ -100,19 +100,31 @@ struct Jacobians {
   Eigen::VectorXd volume, least;
 };
 
-/// The Jacobians at points at which the elements may be integrated.
+/// The Jacobians at points at which the elements may be integrated: columns of positions by the slopes at all points at
+/// once, a row each, in one product for each direction of the reference element.
 Jacobians jacobians(const mesh::LagrangeNodes& nodes, const Positions& positions) {
   const TetQuadrature rule = tet_quadrature(points_of_check);
-  std::vector<Eigen::MatrixX3d> slopes;
-  for (Eigen::Index q = 0; q < rule.weight.size(); ++q) slopes.push_back(shape_slopes(nodes.order, rule.lambda.col(q)));
+  const Eigen::Index points = rule.weight.size();
+  std::array<Eigen::MatrixXd, 3> slopes;
+  slopes.fill(Eigen::MatrixXd(points, nodes.elements.cols()));
+  for (Eigen::Index q = 0; q < points; ++q) {
+    const Eigen::MatrixX3d at_point = shape_slopes(nodes.order, rule.lambda.col(q));
+    for (std::size_t k = 0; k < 3; ++k) slopes[k].row(q) = at_point.col(static_cast<Eigen::Index>(k));
+  }
   Jacobians result{Eigen::VectorXd(nodes.elements.rows()), Eigen::VectorXd(nodes.elements.rows())};
   core::parallel_for(static_cast<std::size_t>(nodes.elements.rows()), [&](std::size_t i) {
     const auto e = static_cast<Eigen::Index>(i);
-    const Eigen::Matrix<double, 3, Eigen::Dynamic> x = positions(nodes.elements.row(e), Eigen::all).transpose();
-    Eigen::VectorXd jacobian(rule.weight.size());
-    for (Eigen::Index q = 0; q < jacobian.size(); ++q)
-      jacobian(q) = Eigen::Matrix3d(x * slopes[static_cast<std::size_t>(q)]).determinant();
-    result.volume(e) = rule.weight.dot(jacobian) / 6.0;
+    const Eigen::MatrixX3d x = positions(nodes.elements.row(e), Eigen::all);
+    std::array<Eigen::ArrayX3d, 3> along;
+    for (std::size_t k = 0; k < 3; ++k) {
+      along[k].resize(points, 3);
+      for (Eigen::Index c = 0; c < 3; ++c) along[k].col(c) = slopes[k] * x.col(c);
+    }
+    const auto& [u, v, w] = along;
+    const Eigen::ArrayXd jacobian = u.col(0) * (v.col(1) * w.col(2) - v.col(2) * w.col(1)) +
+                                    u.col(1) * (v.col(2) * w.col(0) - v.col(0) * w.col(2)) +
+                                    u.col(2) * (v.col(0) * w.col(1) - v.col(1) * w.col(0));
+    result.volume(e) = rule.weight.dot(jacobian.matrix()) / 6.0;
     result.least(e) = jacobian.minCoeff() / std::abs(jacobian.mean());
   });
   return result;

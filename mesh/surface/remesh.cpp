@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <optional>
 #include <string>
 
@@ -63,13 +64,13 @@ Place make_place(const SizeSpace& space, int patch, const Eigen::Vector3d& x) {
   return place;
 }
 
-/// The place of a vertex on a patch, which is kept until the vertex moves.
-Place place_of(Work& work, Vertex v, int patch) {
+/// The place of a vertex on a patch, which is kept until the vertex moves; valid until another patch of it is asked
+/// for.
+const Place& place_of(Work& work, Vertex v, int patch) {
   auto& known = work.places[v];
   for (const Place& place : known)
     if (place.patch == patch) return place;
-  known.push_back(make_place(work.space, patch, work.mesh.point(v)));
-  return known.back();
+  return known.emplace_back(make_place(work.space, patch, work.mesh.point(v)));
 }
 
 /// Number of wanted edges between two places. It is measured in two halves, because the middle of an edge from border
@@ -148,8 +149,8 @@ std::vector<std::pair<double, Edge>> measured_edges(Work& work) {
 /// edge along which the wanted size changes.
 Eigen::Vector3d halving_point(Work& work, Edge e, int patch) {
   constexpr int samples = 64;
-  const Place a = place_of(work, work.mesh.vertex(e, 0), patch);
-  const Place b = place_of(work, work.mesh.vertex(e, 1), patch);
+  const Place& a = place_of(work, work.mesh.vertex(e, 0), patch);
+  const Place& b = place_of(work, work.mesh.vertex(e, 1), patch);
   std::vector<double> way{0.0};
   Eigen::VectorXd last = a.wanted;
   for (int k = 1; k <= samples; ++k) {
@@ -224,9 +225,9 @@ bool may_collapse(Work& work, Half h) {
     const Face f = mesh.face(to_gone);
     if (f == mesh.face(h) || f == mesh.face(mesh.opposite(h))) continue;
     const int patch = work.patch[f];
-    const Place moved = place_of(work, kept, patch);
-    const Place b = place_of(work, mesh.target(mesh.next(to_gone)), patch);
-    const Place c = place_of(work, mesh.source(to_gone), patch);
+    const Place& moved = place_of(work, kept, patch);
+    const Place& b = place_of(work, mesh.target(mesh.next(to_gone)), patch);
+    const Place& c = place_of(work, mesh.source(to_gone), patch);
     if (length(work.space, moved, b) > too_long || length(work.space, moved, c) > too_long) return false;
     if (!is_faithful(work.space, moved, b, c)) return false;
   }
@@ -272,35 +273,48 @@ int collapse_short_edges(Work& work) {
   return collapses;
 }
 
+/// The outcome of a look at an edge, which is the same until one of its two triangles changes, unless it is blocked: a
+/// flip would make an edge that stands elsewhere.
+enum class Look { settled, blocked, flipped };
+
 /// Flips an edge that is not sharp if that improves the worse of its two triangles.
-bool flip_if_better(Work& work, Edge e) {
+Look flip_if_better(Work& work, Edge e) {
   Mesh& mesh = work.mesh;
-  if (work.line[e] >= 0) return false;
+  if (work.line[e] >= 0) return Look::settled;
   const Half h = mesh.halfedge(e);
   const std::array<Vertex, 4> v{mesh.source(h), mesh.target(h), mesh.target(mesh.next(h)),
                                 mesh.target(mesh.next(mesh.opposite(h)))};
-  if (mesh.halfedge(v[2], v[3]) != Mesh::null_halfedge()) return false;
+  if (mesh.halfedge(v[2], v[3]) != Mesh::null_halfedge()) return Look::blocked;
   const int patch = work.patch[mesh.face(h)];
-  const Place a = place_of(work, v[0], patch);
-  const Place b = place_of(work, v[1], patch);
-  const Place c = place_of(work, v[2], patch);
-  const Place d = place_of(work, v[3], patch);
+  const Place& a = place_of(work, v[0], patch);
+  const Place& b = place_of(work, v[1], patch);
+  const Place& c = place_of(work, v[2], patch);
+  const Place& d = place_of(work, v[3], patch);
   const double now = std::min(quality(work.space, a, b, c), quality(work.space, b, a, d));
   const double then = std::min(quality(work.space, a, d, c), quality(work.space, d, b, c));
-  if (!(then > now + better) || !is_faithful(work.space, a, d, c) || !is_faithful(work.space, d, b, c)) return false;
+  if (!(then > now + better) || !is_faithful(work.space, a, d, c) || !is_faithful(work.space, d, b, c))
+    return Look::settled;
   CGAL::Euler::flip_edge(h, mesh);
-  return true;
+  return Look::flipped;
 }
 
-/// Flips edges in several sweeps, because a flip can make another one worthwhile.
+/// Flips edges in several sweeps, because a flip can make another one worthwhile: those around it.
 void flip_edges(Work& work) {
   constexpr int sweeps = 10;
+  Mesh& mesh = work.mesh;
+  std::vector<bool> settled(mesh.num_edges(), false);
   bool changed = true;
   for (int sweep = 0; sweep < sweeps && changed; ++sweep) {
     changed = false;
-    for (const Edge e : work.mesh.edges()) {
+    for (const Edge e : mesh.edges()) {
+      if (settled[e.idx()]) continue;
       core::check_interrupt();
-      changed = flip_if_better(work, e) || changed;
+      const Look look = flip_if_better(work, e);
+      settled[e.idx()] = look == Look::settled;
+      if (look != Look::flipped) continue;
+      changed = true;
+      for (const Half h : {mesh.halfedge(e), mesh.opposite(mesh.halfedge(e))})
+        for (const Half beside : {mesh.next(h), mesh.prev(h)}) settled[mesh.edge(beside).idx()] = false;
     }
   }
 }
@@ -309,21 +323,21 @@ void flip_edges(Work& work) {
 /// not be faithful.
 std::optional<double> worst_around(Work& work, Vertex v, const Eigen::Vector3d& x, double to_beat) {
   Mesh& mesh = work.mesh;
-  std::vector<Place> moved;
-  std::vector<std::array<Place, 3>> triangles;
+  std::deque<Place> moved;
+  std::vector<std::array<const Place*, 3>> triangles;
   double worst = 1.0;
   for (const Half h : mesh.halfedges_around_target(mesh.halfedge(v))) {
     const int patch = work.patch[mesh.face(h)];
-    auto known = std::find_if(moved.begin(), moved.end(), [&](const Place& p) { return p.patch == patch; });
+    auto known = std::ranges::find(moved, patch, &Place::patch);
     if (known == moved.end()) known = moved.insert(moved.end(), make_place(work.space, patch, x));
-    triangles.push_back(
-        {*known, place_of(work, mesh.target(mesh.next(h)), patch), place_of(work, mesh.source(h), patch)});
-    const auto& [a, b, c] = triangles.back();
-    worst = std::min(worst, quality(work.space, a, b, c));
+    const Place& b = place_of(work, mesh.target(mesh.next(h)), patch);
+    const Place& c = place_of(work, mesh.source(h), patch);
+    triangles.push_back({&*known, &b, &c});
+    worst = std::min(worst, quality(work.space, *known, b, c));
     if (!(worst > to_beat)) return std::nullopt;
   }
   for (const auto& [a, b, c] : triangles)
-    if (!is_faithful(work.space, a, b, c)) return std::nullopt;
+    if (!is_faithful(work.space, *a, *b, *c)) return std::nullopt;
   return worst;
 }
 
