@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "core/nearest_name.hpp"
+#include "core/synonyms.hpp"
 
 namespace thinwall::app {
 
@@ -14,6 +15,13 @@ namespace {
 /// "--out" of "--out=DIR".
 std::string option_name(const std::string& word) {
   return word.substr(0, word.find('='));
+}
+
+/// True if a word certainly is an option, or meant as one: what starts with one - may be a negative number, or -qv.
+bool looks_like_option(const std::string& word) {
+  if (word.starts_with("--")) return word != "--";
+  return std::ranges::any_of(core::meanings(option_name(word)),
+                             [](const core::Synonym& row) { return row.kind == core::WordKind::option; });
 }
 
 /// Of these words, which look like options.
@@ -37,8 +45,8 @@ std::string unknown_word(const ProgramDescription& program, const std::vector<st
   if (words.front().starts_with('-')) return unknown_option(program.options, program.name, {words.front()});
   const auto command = std::ranges::find(program.commands, words.front(), &CommandDescription::name);
   if (command != program.commands.end()) {
-    std::vector<std::string> options = words;  // what starts with one - may be a negative number, or -qv
-    std::erase_if(options, [](const std::string& word) { return !word.starts_with("--") || word == "--"; });
+    std::vector<std::string> options = words;
+    std::erase_if(options, [](const std::string& word) { return !looks_like_option(word); });
     return unknown_option(command->options, program.name + " " + command->name, options);
   }
   std::vector<std::string> names;

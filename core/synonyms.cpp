@@ -78,6 +78,8 @@ constexpr std::array table{
     Synonym{WordKind::command, "chart|sld|stability", "lobes"},
     Synonym{WordKind::command, "scan|grid", "sweep"},
     Synonym{WordKind::command, "page|html|plot", "report"},
+    Synonym{WordKind::option, "-o|--output|--results|--result|--folder|--dir", "--out"},
+    Synonym{WordKind::option, "-j|--jobs|--cores", "--threads"},
 };
 // clang-format on
 
@@ -107,9 +109,11 @@ std::string_view title_of(WordKind kind) {
     case WordKind::unit:
       return "unit";
     case WordKind::command:
+      return "command";
+    case WordKind::option:
       break;
   }
-  return "command";
+  return "option";
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace thinwall::core {
 
 /// The kinds of words of which people know several.
-enum class WordKind { key, word, unit, command };
+enum class WordKind { key, word, unit, command, option };
 
 /// Words for one thing: those that people write, separated by '|', and the one that is understood here.
 struct Synonym {

@@ -249,6 +249,7 @@ ExitCode run_sweep(const SweepRequest& request, const RunCase& run_case, std::os
   const fs::path folder = request.out.empty() ? fs::path("results") / (name + "-sweep") : fs::path(request.out);
   log_to_terminal(request.verbosity);
   make_sweep_folder(folder);
+  remove_abandoned_tables(folder);
   if (std::error_code ignored; request.fresh) fs::remove_all(shared_parts(folder), ignored);
   write_plan(folder, plan);
   if (request.shards > 0 && !request.slurm && !request.parallel)

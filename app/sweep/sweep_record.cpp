@@ -1,6 +1,12 @@
 #include "app/sweep/sweep_record.hpp"
 
+#include <signal.h>
+
 #include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "app/doctor.hpp"
@@ -47,6 +53,21 @@ SweepFigures figures_of(const fs::path& folder, const std::string& sha256) {
   return sweep_figures(report::summary_from(summary, file));
 }
 
+/// True of the name that a table of the sweep has while it is written.
+bool is_table_half_written(const fs::path& path, const fs::path& folder) {
+  return std::ranges::any_of(std::array{"sweep.csv", "sweep.svg", "sweep.json"},
+                             [&](const char* table) { return core::is_partial_name_of(path, folder / table); });
+}
+
+/// True if the process whose number is in a half-written file's name does not run here, and the file is a minute old.
+bool is_abandoned(const fs::directory_entry& file) {
+  const std::string name = file.path().filename().string();
+  const std::size_t number = name.find_first_of("0123456789", name.find(".partial-"));
+  const auto process = static_cast<pid_t>(std::strtol(name.c_str() + number, nullptr, 10));
+  const bool runs = ::kill(process, 0) == 0 || errno != ESRCH;
+  return !runs && fs::file_time_type::clock::now() - file.last_write_time() > std::chrono::minutes(1);
+}
+
 }  // namespace
 
 std::string sweep_key(const fs::path& case_path, const std::vector<std::string>& overrides,
@@ -89,6 +110,19 @@ SweepPlan read_plan(const fs::path& folder) {
   for (const JsonValue& axis : value.at("axes").items()) plan.axes.push_back(axis_of(axis));
   if (plan.axes.empty()) value.at("axes").refuse("is empty");
   return plan;
+}
+
+void remove_abandoned_tables(const fs::path& folder) noexcept {
+  try {
+    std::vector<fs::path> abandoned;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (entry.is_regular_file() && is_table_half_written(entry.path(), folder) && is_abandoned(entry))
+        abandoned.push_back(entry.path());
+    }
+    for (const fs::path& path : abandoned) fs::remove(path);
+  } catch (const std::exception&) {
+    // It is in nobody's way but that of the eye.
+  }
 }
 
 fs::path point_folder(const fs::path& sweep, std::size_t number, std::size_t count) {

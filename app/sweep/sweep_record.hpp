@@ -33,6 +33,11 @@ void write_plan(const std::filesystem::path& folder, const SweepPlan& plan);
 /// The plan that write_plan() wrote. Throws DataError for a folder without sweep.json, or with a damaged one.
 [[nodiscard]] SweepPlan read_plan(const std::filesystem::path& folder);
 
+/// Removes the half-written sweep.csv, sweep.svg and sweep.json of processes that ended before these were whole: those
+/// whose process no longer runs on this machine and that nobody has written to for a minute, which is longer than any
+/// of them takes on another machine. What cannot be removed stays. Cost: of listing the folder.
+void remove_abandoned_tables(const std::filesystem::path& folder) noexcept;
+
 /// Folder of a point: 001, 002 …; as many digits as the last one has, three at least.
 [[nodiscard]] std::filesystem::path point_folder(const std::filesystem::path& sweep, std::size_t number,
                                                  std::size_t count);

@@ -186,6 +186,18 @@ void ask_about_turns(const Case& source, std::vector<std::string>& doubts) {
                    " long along the feed; take fewer by simulation.turns");
 }
 
+/// A trace of more turns than are recorded, other than the usual one, which is no one's wish.
+void ask_about_trace(const Case& source, std::vector<std::string>& doubts) {
+  if (!source.simulation) return;
+  const setup::Simulation& asked = *source.simulation;
+  const bool other_count = asked.start == setup::CutStart::border || asked.length_m.has_value();
+  if (other_count || asked.traced_turns <= asked.turns || asked.traced_turns == setup::Simulation{}.traced_turns)
+    return;
+  doubts.push_back(fmt::format(
+      "simulation.trace is {} turns, and {} are recorded, which are all that is traced; give simulation.turns as many",
+      asked.traced_turns, asked.turns));
+}
+
 }  // namespace
 
 std::vector<std::string> doubts_about(const Case& source) {
@@ -196,6 +208,7 @@ std::vector<std::string> doubts_about(const Case& source) {
   ask_about_materials(source, doubts);
   ask_about_robot_damping(source, doubts);
   ask_about_turns(source, doubts);
+  ask_about_trace(source, doubts);
   ask_about_cut_material(source, doubts);
   ask_about_thin_chips(source, doubts);
   ask_about_missed_chips(source, doubts);

@@ -24,7 +24,8 @@ Lobes lobes_of(std::vector<LobeRow> rows, std::string method) {
   lobes.at_spindle_speed_rpm = least->spindle_speed_rpm;
   for (const LobeRow& row : lobes.rows) {
     if (row.at_limit) ++lobes.rows_at_limit;
-    else lobes.worst_error_estimate = std::max(lobes.worst_error_estimate, row.error_estimate);
+    if (!row.at_limit || !answers(row.status))
+      lobes.worst_error_estimate = std::max(lobes.worst_error_estimate, row.error_estimate);
     if (!answers(row.status)) ++lobes.rows_not_converged;
   }
   return lobes;

@@ -26,7 +26,7 @@ struct Lobes {
   std::vector<LobeRow> rows;          ///< in the order of the speeds
   double minimum_depth_m = 0.0;       ///< least limiting depth, the absolute stability limit of the range
   double at_spindle_speed_rpm = 0.0;  ///< where that is
-  double worst_error_estimate = 0.0;  ///< largest relative estimate of the rows that are not at the limit
+  double worst_error_estimate = 0.0;  ///< largest of the rows that are not sound at the limit
   double residual_share = 0.0;        ///< static compliance that the analysis leaves out, see RelativeStructure
   int rows_at_limit = 0;              ///< stable up to the depth limit
   int rows_not_converged = 0;         ///< step limit reached, or eigenvalue not converged

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "milling/chart/near_crossing.hpp"
 #include "milling/direct/critical_depths.hpp"
 #include "milling/direct/cut_at_speed.hpp"
 #include "milling/direct/fitted_receptance.hpp"
@@ -23,15 +24,6 @@ using Fit = FittedStructure::Fit;
 
 using std::complex;
 using std::numbers::pi;
-
-/// 0 if there is none.
-double highest_resonance_hz(const SampledReceptance& r) {
-  Resonance highest;
-  for (const Resonance& found : resonances(r)) {
-    if (found.size > highest.size) highest = found;
-  }
-  return highest.frequency_hz;
-}
 
 /// The poles of a fit, in tool axes, in part axes, and those that were given besides.
 Fit fit_in_part_axes(FittedReceptance fit, const SampledStructure& structure, const ToolFrame& frame) {
@@ -262,6 +254,7 @@ void follow_to_lines(const FittedStructure& structure, const CutAtSpeed& cut, Lo
 }
 
 /// Adds to a row that is stable up to the depth limit what the lines leave open: twice the larger change of |μ| there.
+/// If the cut may be unstable there for that, nothing is known of its limit.
 void compare_at_limit(const FittedStructure& structure, const MillingProcess& process, const StabilityOptions& options,
                       LobeRow& row) {
   const auto modulus = [&](const Fit& fit) {
@@ -272,6 +265,9 @@ void compare_at_limit(const FittedStructure& structure, const MillingProcess& pr
   for (const Fit* half : {&structure.even, &structure.odd})
     open = std::max(open, std::abs(modulus(*half) / by_all - 1.0));
   row.error_estimate += 2.0 * open;
+  if (row.status != StabilityStatus::stable_to_depth_limit || by_all * (1.0 + 2.0 * open) < 1.0) return;
+  row.error_estimate = std::max(row.error_estimate, 1.0);
+  row.status = StabilityStatus::data_insufficient;
 }
 
 /// True if the poles leave more than a tenth of the lines somewhere, measured by the largest line of twenty-one.
@@ -317,22 +313,6 @@ void add_crossing_of_remainder(const FittedStructure& structure, const CutAtSpee
   }
 }
 
-/// Throws InputError unless lines from `first` to `last` hold what lies one tooth passing beside a resonance, all in
-/// Hz.
-void require_neighbours(double first, double last, double resonance, double spindle_speed_rpm, double passing) {
-  const double above = resonance + passing;
-  const double below = std::abs(resonance - passing);
-  const bool reaches_down = first <= below || first <= 0.5 * resonance;
-  if (last >= above && reaches_down) return;
-  std::ostringstream text;
-  text << "receptance at the cut: lines from " << first << " to " << last << " Hz do not hold the harmonic at "
-       << (last < above ? above : below) << " Hz, one tooth passing (" << passing << " Hz at " << spindle_speed_rpm
-       << " rpm) " << (last < above ? "above" : "beside") << " the resonance at " << resonance << " Hz; measure from "
-       << std::min(first, 0.5 * resonance) << " to " << std::max(last, above) << " Hz"
-       << (last < above ? ", or ask for lower speeds" : "");
-  throw core::InputError(text.str());
-}
-
 }  // namespace
 
 FittedStructure fitted_structure(const SampledStructure& structure, const ToolFrame& frame) {
@@ -354,8 +334,8 @@ FittedStructure beside(FittedStructure structure, const RelativeStructure& poles
   return structure;
 }
 
-LobeRow limiting_depth(const FittedStructure& structure, const MillingProcess& process, double spindle_speed_rpm,
-                       const StabilityOptions& options) {
+LobeRow row_by_lines(const FittedStructure& structure, const MillingProcess& process, double spindle_speed_rpm,
+                     const StabilityOptions& options) {
   require_range(structure.lines.samples, process, spindle_speed_rpm);
   LobeRow row = limiting_depth(structure.all.poles, process, spindle_speed_rpm, options);
   if (row.status == StabilityStatus::crossing_missed) return row;
@@ -373,11 +353,14 @@ LobeRow limiting_depth(const FittedStructure& structure, const MillingProcess& p
   if (row.at_limit) compare_at_limit(structure, process, options, row);
   take_limit_from_crossings(row);
   if (much_left) add_crossing_of_remainder(structure, cut, row.limiting_depth_m, row);
-  // An estimate that is no number meets no tolerance.
-  if (row.status == StabilityStatus::converged && !(row.error_estimate <= options.error_tolerance)) {
-    constexpr double answers_to = 0.1;
-    row.status = row.error_estimate <= answers_to ? StabilityStatus::data_limited : StabilityStatus::data_insufficient;
-  }
+  judge_by_estimate(row, options);
+  return row;
+}
+
+LobeRow limiting_depth(const FittedStructure& structure, const MillingProcess& process, double spindle_speed_rpm,
+                       const StabilityOptions& options) {
+  LobeRow row = row_by_lines(structure, process, spindle_speed_rpm, options);
+  widen_for_near_crossings(structure, process, options, row);
   return row;
 }
 
@@ -407,36 +390,23 @@ std::vector<Eigen::Matrix3cd> depth_gradient(const FittedStructure& structure, c
   return gradient_at(grid, gain, structure.lines.samples, found);
 }
 
-void require_range(const SampledReceptance& receptance, const MillingProcess& process, double spindle_speed_rpm) {
-  require_range(receptance, process, std::vector<double>{spindle_speed_rpm});
-}
-
-void require_range(const SampledReceptance& receptance, const MillingProcess& process,
-                   const std::vector<double>& spindle_speeds_rpm) {
-  require_usable(receptance);
-  const double first = receptance.frequency_hz(0);
-  const double last = receptance.frequency_hz(receptance.frequency_hz.size() - 1);
-  const double resonance = highest_resonance_hz(receptance);
-  if (resonance == 0.0) {
-    std::ostringstream text;
-    text << "receptance at the cut: lines from " << first << " to " << last
-         << " Hz hold no resonance, the one that chatters must lie among them; measure a wider range";
-    throw core::InputError(text.str());
-  }
-  for (const double rpm : spindle_speeds_rpm)
-    require_neighbours(first, last, resonance, rpm, 1.0 / tooth_period_s(process.cutter, rpm));
+Lobes lobes_by_lines(const FittedStructure& structure, const MillingProcess& process,
+                     const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options,
+                     const KeptRows& kept) {
+  const auto at = [&](double rpm, std::optional<double> expected_m) {
+    StabilityOptions with = options;
+    with.expected_depth_m = expected_m;
+    return row_by_lines(structure, process, rpm, with);
+  };
+  return lobes_of(rows_by_blocks(spindle_speeds_rpm, at, kept),
+                  "contact-phase collocation on a rational fit of the receptance");
 }
 
 Lobes stability_lobes(const FittedStructure& structure, const MillingProcess& process,
                       const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options,
                       const KeptRows& kept) {
-  const auto at = [&](double rpm, std::optional<double> expected_m) {
-    StabilityOptions with = options;
-    with.expected_depth_m = expected_m;
-    return limiting_depth(structure, process, rpm, with);
-  };
-  return lobes_of(rows_by_blocks(spindle_speeds_rpm, at, kept),
-                  "contact-phase collocation on a rational fit of the receptance");
+  return widened_for_near_crossings(structure, process, options,
+                                    lobes_by_lines(structure, process, spindle_speeds_rpm, options, kept));
 }
 
 Lobes stability_lobes(const SampledStructure& structure, const MillingProcess& process,

@@ -231,6 +231,16 @@ std::vector<Crossing> CriticalDepths::up_to(double depth_limit_m) {
   return std::exchange(found_, {});
 }
 
+std::vector<CriticalDepths::NearAxis> CriticalDepths::near_axis(double depth_m, double share) const {
+  std::vector<NearAxis> near;
+  for (const auto& [theta_rad, stop] : stops_) {
+    for (const complex<double> nu : stop.nu) {
+      if (nu.real() * depth_m > 1.0 && std::abs(nu.imag()) <= share * nu.real()) near.push_back({theta_rad, nu});
+    }
+  }
+  return near;
+}
+
 std::vector<double> stops_between(const Eigen::VectorXcd& flow) {
   std::vector<double> stops{0.0};
   while (stops.back() < pi) {

@@ -38,6 +38,17 @@ class CriticalDepths {
   /// fails. Cost: Z at every stop, and an eigenvalue problem of its size at those that matter.
   [[nodiscard]] std::vector<Crossing> up_to(double depth_limit_m);
 
+  /// An eigenvalue near the real axis.
+  struct NearAxis {
+    double theta_rad = 0.0;
+    std::complex<double> nu;
+  };
+
+  /// The eigenvalues with 1/Re ν < depth_m, and |Im ν| of at most that share of Re ν, at all angles that up_to() has
+  /// looked at so far. A path that nearly touches the axis is looked at in steps no longer than
+  /// its distance from it, so that none is overlooked. Cost: that of reading them.
+  [[nodiscard]] std::vector<NearAxis> near_axis(double depth_m, double share) const;
+
  private:
   struct Stop {
     Eigen::MatrixXcd Z;

@@ -149,8 +149,12 @@ double surely_stable_depth_m(const CutAtSpeed& cut) {
 
 Eigen::VectorXcd multipliers(const DiscreteCut& d, double depth_m) {
   core::check_interrupt();
+  Eigen::MatrixXd map = period_map(d.loop, depth_m);
+  // Where I + wK is singular to round-off, a depth that a search may well come upon, a multiplier is infinite; a hair
+  // beside it is large, and no other changes.
+  constexpr double hair = 1e-9;
+  if (!map.allFinite()) map = period_map(d.loop, (1.0 + hair) * depth_m);
   // A count over NaN would call the cut stable.
-  const Eigen::MatrixXd map = period_map(d.loop, depth_m);
   const Eigen::EigenSolver<Eigen::MatrixXd> eigen(map.allFinite() ? map : Eigen::MatrixXd::Zero(1, 1), false);
   if (!map.allFinite() || eigen.info() != Eigen::Success) {
     throw core::NumericalError("stability: the multipliers at a depth of " + std::to_string(depth_m) +

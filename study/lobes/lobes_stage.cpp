@@ -13,6 +13,7 @@
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
 #include "core/units.hpp"
+#include "milling/chart/near_crossing.hpp"
 #include "milling/chart/refined_lobes.hpp"
 #include "milling/chart/sampled_stability.hpp"
 #include "milling/direct/stability.hpp"
@@ -43,13 +44,13 @@ struct Chart {
   [[nodiscard]] milling::Lobes by(milling::Method method, const std::vector<double>& speeds_rpm,
                                   const milling::KeptRows& kept = {}) const {
     if (const auto* sampled = std::get_if<milling::FittedStructure>(&structure))
-      return milling::stability_lobes(*sampled, process, speeds_rpm, options.stability, kept);
+      return milling::lobes_by_lines(*sampled, process, speeds_rpm, options.stability, kept);
     return milling::stability_lobes(*milling::lobe_method(method, *poles(), process, options), speeds_rpm, kept);
   }
   [[nodiscard]] milling::RowAt row_at(milling::Method method) const {
     return [this, method](double rpm, const milling::StabilityOptions& with) {
       if (const auto* sampled = std::get_if<milling::FittedStructure>(&structure))
-        return milling::limiting_depth(*sampled, process, rpm, with);
+        return milling::row_by_lines(*sampled, process, rpm, with);
       milling::MethodOptions all = options;
       all.stability = with;
       return milling::lobe_method(method, *poles(), process, all)->limiting_depth(rpm, with.expected_depth_m);
@@ -68,13 +69,17 @@ std::vector<double> speeds_of(const milling::Lobes& lobes) {
   return speeds;
 }
 
-/// The chart, its line refined; the case's own speed and those of the points lie on it.
+/// The chart, its line refined, and its rows widened after that; the case's own speed and those of the points lie on
+/// it.
 milling::Lobes refined_chart(const setup::CutSetup& source, const Chart& chart,
                              const std::vector<milling::OperatingPoint>& points, const milling::KeptRows& kept) {
   const setup::LobesOptions& wanted = *source.lobes;
-  return milling::refined(chart.by(wanted.method, even_speeds(wanted), kept), chart.row_at(wanted.method),
-                          chart.process, chart.options.stability, {wanted.line_tolerance, setup::most_added(wanted)},
-                          asked_speeds(source, points), kept);
+  milling::Lobes lobes = milling::refined(
+      chart.by(wanted.method, even_speeds(wanted), kept), chart.row_at(wanted.method), chart.process,
+      chart.options.stability, {wanted.line_tolerance, setup::most_added(wanted)}, asked_speeds(source, points), kept);
+  const auto* sampled = std::get_if<milling::FittedStructure>(&chart.structure);
+  if (sampled == nullptr) return lobes;
+  return milling::widened_for_near_crossings(*sampled, chart.process, chart.options.stability, std::move(lobes));
 }
 
 /// Errors of the limiting depths, and at the case's own speed; the rows share out among the threads.

@@ -29,17 +29,17 @@ double solve_s(double dofs) {
   return 1.3 * std::pow(dofs / 4e4, 1.3);
 }
 
-/// The shares of the third and the fourth order that parts took at a tolerance, and whether those with edges that turn
-/// inwards take a finer mesh as well: by plates with holes and slots, panels, profiles, trays and bent sheets.
+/// The shares of the third and the fourth order that parts took at a tolerance, and of a finer mesh as well of those
+/// with edges that turn inwards: by plates with holes and slots, panels, profiles, trays, housings and bent sheets.
 struct Refinement {
   double third = 1.0, fourth = 1.0;
-  bool finer = true;
+  double finer = 1.0;
 };
 
 Refinement usual_refinement(double tolerance) {
-  if (tolerance >= 0.05) return {0.15, 0.0, false};
-  if (tolerance >= 0.02) return {0.3, 0.15, false};
-  return tolerance >= 0.01 ? Refinement{1.0, 0.4, false} : Refinement{};
+  if (tolerance >= 0.05) return {0.15, 0.0, 0.0};
+  if (tolerance >= 0.02) return {0.3, 0.15, 0.0};
+  return tolerance >= 0.01 ? Refinement{1.0, 0.4, 0.28} : Refinement{};
 }
 
 /// The time of the solutions that a tolerance usually takes, from the first order on: two of them in any case, the
@@ -52,8 +52,8 @@ double refinement_s(const setup::Part& part, const mesh::TetMesh& mesh, int firs
     const double share = beyond < 2 ? 1.0 : beyond == 2 ? usual.third : usual.fourth;
     (beyond < 2 ? first : further) += share * solve_s(dofs(mesh, order));
   }
-  const bool finer = usual.finer && fem::has_reentrant_edge(part.imported->surface->surface);
-  if (finer) further += (first + further) * std::pow(3.5, 1.3);
+  if (usual.finer > 0.0 && fem::has_reentrant_edge(part.imported->surface->surface))
+    further += usual.finer * (first + further) * std::pow(3.5, 1.3);
   const double budget = part.mesh.time_budget.value_or(INFINITY);
   return first + std::min(further, std::max(0.0, budget - first));
 }

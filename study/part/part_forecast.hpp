@@ -14,10 +14,11 @@ namespace thinwall::study {
 /// clamps are looked up, and the time of the part, mostly within a factor of two and a half; none for other parts. A
 /// solution of n degrees of freedom takes (n / 4e4)^1.3 times 1.3 s. The number of solutions is the usual one of the
 /// tolerance: two orders and 0.15 of a third from 0.05 on, 0.3 of it and 0.15 of a fourth from 0.02 on, three orders
-/// and 0.4 of the fourth from 0.01 on, all below, and there a second level of 3.5 times as many degrees of freedom
-/// where edges turn inwards; what comes after the first two within the part's time budget. A mesh of a file is solved
-/// once more, of one order more, for its error. Throws what coarsest_mesh() throws, and InputError for a support or
-/// clamp that holds no face. `first`: what first_mesh() has made of the same input, or empty: it is made.
+/// and 0.4 of the fourth from 0.01 on, all below, and a second level of 3.5 times as many degrees of freedom where
+/// edges turn inwards, of which 0.28 from 0.01 on; what comes after the first two within the part's time budget. A mesh
+/// of a file is solved once more, of one order more, for its error. Throws what coarsest_mesh() throws, and InputError
+/// for a support or clamp that holds no face. `first`: what first_mesh() has made of the same input, or empty: it is
+/// made.
 [[nodiscard]] std::optional<setup::PartSize> forecast(const PartInput& source,
                                                       const std::shared_ptr<const fem::FirstMesh>& first = {});
 

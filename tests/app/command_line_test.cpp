@@ -185,6 +185,10 @@ TEST_F(CommandLine, AnOptionThatIsNoneIsNamedWithTheNearestOne) {
       "them\n");
   EXPECT_EQ(call({"merge", "--shard=1/2", "a"}).err,
             "thinwall: \"thinwall merge\" has no option \"--shard\"; \"thinwall merge --help\" lists them\n");
+  for (const std::string other : {"-o", "--output", "--results"}) {
+    const std::string told = call({"run", plate(), other, "there"}).err;
+    EXPECT_NE(told.find("has no option \"" + other + "\" (did you mean \"--out\"?)"), std::string::npos) << told;
+  }
   EXPECT_NE(call({"-x"}).err.find("\"thinwall\" has no option \"-x\""), std::string::npos);
   EXPECT_NE(call({"--versoin"}).err.find("(did you mean \"--version\"?)"), std::string::npos);
   EXPECT_NE(call({"run", plate(), "--out"}).err.find("--out: 1 required DIR missing"), std::string::npos);

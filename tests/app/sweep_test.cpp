@@ -3,8 +3,10 @@
 #include "app/sweep/sweep.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <sstream>
 
@@ -224,6 +226,23 @@ TEST_F(Sweep, AfterAStopItGoesOnWhereItWas) {
   EXPECT_EQ(sweep("stopped", depths_and_teeth, "", true), core::ExitCode::done);
   EXPECT_EQ(runs, 13) << "--fresh";
   EXPECT_EQ(csv("stopped"), before);
+}
+
+TEST_F(Sweep, WhatAKilledSweepLeftIsClearedAndWhatAnotherWritesIsNot) {
+  const fs::path there = folder() / "all";
+  fs::create_directories(there);
+  // No process has the largest number, and this one runs.
+  const fs::path dead = there / ".sweep.partial-4194304-1-0.csv", young = there / ".sweep.partial-4194304-1-1.csv";
+  const fs::path own = there / (".sweep.partial-" + std::to_string(::getpid()) + "-1-2.json");
+  const fs::path foreign = there / ".notes.partial-4194304-1-0.csv";
+  const auto long_ago = fs::file_time_type::clock::now() - std::chrono::hours(1);
+  for (const fs::path& file : {dead, young, own, foreign}) {
+    core::write_file_atomically(file, "point,");
+    if (file != young) fs::last_write_time(file, long_ago);
+  }
+  EXPECT_EQ(sweep("all", {"tool.teeth=2"}), core::ExitCode::done);
+  EXPECT_FALSE(fs::exists(dead));
+  for (const fs::path& file : {young, own, foreign}) EXPECT_TRUE(fs::exists(file)) << file;
 }
 
 TEST_F(Sweep, AChangedCaseIsComputedAnew) {

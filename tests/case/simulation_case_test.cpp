@@ -259,5 +259,13 @@ TEST(SimulationCase, TurnsBeyondThePartAreDoubted) {
   EXPECT_TRUE(doubts_about(parse_case(simulated("turns = 400\n"), ".")).empty());
 }
 
+TEST(SimulationCase, ATraceOfMoreTurnsThanAreRecordedIsDoubted) {
+  const std::vector<std::string> doubts = doubts_about(parse_case(simulated("turns = 30\ntrace = 60\n"), "."));
+  ASSERT_EQ(doubts.size(), 1U);
+  EXPECT_NE(doubts[0].find("simulation.trace is 60 turns, and 30 are recorded"), std::string::npos) << doubts[0];
+  EXPECT_TRUE(doubts_about(parse_case(simulated("turns = 60\ntrace = 60\n"), ".")).empty());
+  EXPECT_TRUE(doubts_about(parse_case(simulated("turns = 30\n"), ".")).empty()) << "the usual 50 are nobody's wish";
+}
+
 }  // namespace
 }  // namespace thinwall::tests::simulation_case_test

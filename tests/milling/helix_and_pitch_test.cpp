@@ -56,6 +56,36 @@ TEST(Pitch, NearlyEqualTeethOverATurnAreEqualTeethOverAPitch) {
   }
 }
 
+/// At these five speeds of seven hundred the search looked at depths at which a multiplier of these nearly equal teeth
+/// is infinite (I + wK singular to round-off), and the row ended with an exception.
+TEST(Pitch, NearlyEqualTeethHaveTheirMultipliersAtEverySpeed) {
+  const auto mode = [](double hz, double damping, double stiffness, const Eigen::Vector3d& direction) {
+    return testing::Mode{hz, damping, stiffness / std::pow(2.0 * std::numbers::pi * hz, 2), direction};
+  };
+  const RelativeStructure structure = relative_structure(
+      testing::modal_model(
+          {mode(1174.8597994419392, 0.013287403398718999, 37947321.061175555, Eigen::Vector3d::UnitX()),
+           mode(1436.440069456884, 0.006363225169135556, 6036219.569822568, Eigen::Vector3d::UnitY()),
+           mode(1376.4059241453647, 0.021437120425240434, 2013384.23993829, Eigen::Vector3d::UnitY())}),
+      "P");
+  MillingProcess process;
+  process.cutter = {2, 0.012};
+  constexpr double degree = std::numbers::pi / 180.0;
+  process.cutter.pitches_rad = {179.5514 * degree, 180.4486 * degree};
+  process.coefficients = {1408.6e6, 362.9e6};
+  process.engagement = engagement_of(process.cutter, 0.00856, MillingDirection::down);
+  process.frame.feed = Eigen::Vector3d::UnitY();
+  StabilityOptions options;
+  options.depth_limit_m = 0.03;
+  for (const double rpm :
+       {5947.9113018598, 6032.589413447782, 6738.240343347639, 7330.98712446352, 8798.741058655221}) {
+    const LobeRow row = limiting_depth(structure, process, rpm, options);
+    EXPECT_EQ(row.status, StabilityStatus::converged) << rpm;
+    EXPECT_LT(multiplier_at(structure, process, rpm, 0.998 * row.limiting_depth_m, options).modulus, 1.0) << rpm;
+    EXPECT_GT(multiplier_at(structure, process, rpm, 1.002 * row.limiting_depth_m, options).modulus, 1.0) << rpm;
+  }
+}
+
 TEST(Pitch, UnequalPitchesAgainstMarchingInTime) {
   const MillingProcess process =
       process_with({4, 0.012, {80.0 * degree, 100.0 * degree, 70.0 * degree, 110.0 * degree}}, 0.0, 60.0 * degree);

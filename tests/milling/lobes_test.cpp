@@ -232,5 +232,16 @@ TEST(Lobes, RefuseBadInput) {
   EXPECT_THROW((void)limiting_depth(s, good, 1000.0, options), core::InputError);
 }
 
+TEST(Lobes, TheErrorOfAChartIsAlsoThatOfRowsAtTheLimitWhichMissedTheTolerance) {
+  LobeRow sound, missed;
+  sound.at_limit = missed.at_limit = true;
+  sound.error_estimate = 0.3;  // of |μ|, which is far below 1
+  sound.status = StabilityStatus::stable_to_depth_limit;
+  missed.error_estimate = 0.1;
+  missed.status = StabilityStatus::node_limit_reached;
+  EXPECT_EQ(lobes_of({sound}, "").worst_error_estimate, 0.0);
+  EXPECT_EQ(lobes_of({sound, missed}, "").worst_error_estimate, 0.1);
+}
+
 }  // namespace
 }  // namespace thinwall::milling::lobes_test

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <numbers>
 #include <random>
+#include <utility>
 
 #include "core/error.hpp"
 #include "milling/chart/sampled_stability.hpp"
@@ -180,6 +181,14 @@ TEST(SampledLines, NoDepthIsFurtherOffThanClaimedWhereManyModesLieAboveTheLines)
   EXPECT_EQ(tally.beyond, 0);
 }
 
+/// Multiplies the entries of the plane by 1 + noise (x + iy), x and y normal.
+void add_noise(SampledReceptance& lines, double noise, Draws& draw) {
+  for (Eigen::Matrix3cd& H : lines.H) {
+    for (auto& entry : H.topLeftCorner<2, 2>().reshaped())
+      entry *= 1.0 + noise * std::complex<double>(draw.normal(), draw.normal());
+  }
+}
+
 /// Ten fits more than without noise take their time by the number of lines; fewer of them average less of it out.
 TEST(SampledLines, NoiseIsInTheEstimate) {
   constexpr Eigen::Index most_lines = 600;
@@ -192,10 +201,7 @@ TEST(SampledLines, NoiseIsInTheEstimate) {
     SampledReceptance lines = lines_of(structure.poles, 0.3 * structure.lowest_hz, 3.0 * structure.highest_hz,
                                        draw.logarithmic(0.1, 1.0) * structure.half_width_hz, most_lines);
     const double noise = draw.logarithmic(1e-4, 3e-2);
-    for (Eigen::Matrix3cd& H : lines.H) {
-      for (auto& entry : H.topLeftCorner<2, 2>().reshaped())
-        entry *= 1.0 + noise * std::complex<double>(draw.normal(), draw.normal());
-    }
+    add_noise(lines, noise, draw);
     compare(lines, structure.poles, process, rpm, tally);
   }
   tally.print("noise");
@@ -204,6 +210,57 @@ TEST(SampledLines, NoiseIsInTheEstimate) {
   // of the rows, which is none of 200 as a rule and 1.5 of 2000, seven or more of them once in a thousand times.
   EXPECT_LE(tally.beyond, structures > 200 ? 6 : 0);
   EXPECT_LT(tally.worst, 2.0);
+}
+
+/// A light cut of two teeth into a mode at 1000 Hz, with another one far above.
+struct FlipLobes {
+  RelativeStructure poles = relative_structure(testing::modal_model({{1000.0, 0.01, 0.127, Eigen::Vector3d::UnitY()},
+                                                                     {3300.0, 0.02, 0.0465, Eigen::Vector3d::UnitY()}}),
+                                               "P");
+  MillingProcess process;
+
+  FlipLobes() {
+    process.cutter = {2, 0.012};
+    process.coefficients = {8e8, 2.4e8};
+    process.engagement = engagement_of(process.cutter, 0.001, MillingDirection::down);
+  }
+  [[nodiscard]] LobeRow row(double rpm) const { return limiting_depth(poles, process, rpm, first_only()); }
+  /// The speed between two at which the limit changes from one kind of lobe to the other: the nose of a flip lobe.
+  [[nodiscard]] double nose_rpm(double from, double to) const {
+    const Bifurcation kind = row(from).kind;
+    while (to - from > 1e-9 * to) {
+      const double middle = 0.5 * (from + to);
+      (row(middle).kind == kind ? from : to) = middle;
+    }
+    return 0.5 * (from + to);
+  }
+};
+
+// Beside the nose the lines say on which side of it a speed is only so far: the row has the other lobe's depth, which
+// is 40 to 70 % off, or must have it in its estimate. Three hundredths of the speed away it has not.
+TEST(SampledLines, BesideTheNoseOfAFlipLobeTheOtherLobeIsInTheEstimate) {
+  const FlipLobes lobes;
+  Draws draw(5);
+  Tally beside, away;
+  for (int i = 0; i < 3; ++i) {
+    SampledReceptance lines = lines_of(lobes.poles, 200.0, 8000.0, 10.0);
+    add_noise(lines, 0.003, draw);
+    const FittedStructure fit = fitted_structure({lines, {}}, lobes.process.frame);
+    const auto add = [&](double rpm, Tally& tally) {
+      tally.add(limiting_depth(fit, lobes.process, rpm, first_only()), lobes.row(rpm));
+    };
+    for (const auto& [from, to] : {std::pair{9080.0, 9140.0}, {9160.0, 9240.0}, {12700.0, 12820.0}}) {
+      const double nose = lobes.nose_rpm(from, to);
+      for (const double off : {-3e-3, -1e-3, -1e-4, -1e-5, 1e-5, 1e-4, 1e-3, 3e-3}) add(nose * (1.0 + off), beside);
+      for (const double off : {-0.03, 0.03}) add(nose * (1.0 + off), away);
+    }
+  }
+  beside.print("beside a nose");
+  away.print("away from it");
+  EXPECT_EQ(beside.rows, 72);
+  EXPECT_EQ(beside.beyond, 0);
+  EXPECT_EQ(away.beyond, 0);
+  EXPECT_LT(away.median_estimate(), 0.1);
 }
 
 }  // namespace
