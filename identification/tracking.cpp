@@ -152,25 +152,76 @@ void number(const std::vector<Modes>& postures, Tracking& tracking) {
   }
 }
 
+using Neighbours = std::vector<std::vector<std::size_t>>;
+
+/// Adds the `number` nearest of each posture to its neighbours.
+void add_nearest(const Eigen::MatrixXd& distance, int number, Neighbours& neighbours) {
+  for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    const auto column = distance.col(static_cast<Eigen::Index>(i));
+    std::vector<std::size_t> nearest;
+    for (std::size_t k = 0; k < neighbours.size(); ++k) {
+      if (k != i) nearest.push_back(k);
+    }
+    std::ranges::stable_sort(nearest, {}, [&](std::size_t k) { return column(static_cast<Eigen::Index>(k)); });
+    nearest.resize(std::min(nearest.size(), static_cast<std::size_t>(number)));
+    for (const std::size_t k : nearest) {
+      if (std::ranges::find(neighbours[i], k) == neighbours[i].end()) neighbours[i].push_back(k);
+    }
+  }
+}
+
+/// What each name of a posture costs at each of its modes, summed over the neighbours that have the name.
+Eigen::MatrixXd costs_of_names(const std::vector<Modes>& postures, std::size_t at, const std::vector<int>& names,
+                               const std::vector<std::size_t>& neighbours, const Tracking& tracking) {
+  const auto modes = static_cast<Eigen::Index>(names.size());
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(modes, modes);
+  for (const std::size_t other : neighbours) {
+    const std::vector<int>& labels = tracking.label[other];
+    const Eigen::MatrixXd cost = unlikeness_of(postures[other], postures[at]);
+    for (Eigen::Index l = 0; l < modes; ++l) {
+      const auto found = std::ranges::find(labels, names[static_cast<std::size_t>(l)]);
+      if (found != labels.end()) sum.row(l) += cost.row(found - labels.begin()).cwiseMin(most_unlike);
+    }
+  }
+  return sum;
+}
+
+/// Exchanges the names of a posture's modes where that agrees better with all of its neighbours (iterated conditional
+/// modes, Besag 1986), of which a tree hears one only. The sum of the costs over all pairs of neighbours falls with
+/// each exchange.
+void exchange_names(const std::vector<Modes>& postures, const Neighbours& neighbours, Tracking& tracking) {
+  constexpr int most_sweeps = 20;
+  bool exchanged = true;
+  for (int sweep = 0; sweep < most_sweeps && exchanged; ++sweep) {
+    exchanged = false;
+    for (std::size_t at = 0; at < postures.size(); ++at) {
+      if (postures[at].empty()) continue;
+      std::vector<int>& labels = tracking.label[at];
+      const std::vector<int> names = labels;
+      const Eigen::MatrixXd cost = costs_of_names(postures, at, names, neighbours[at], tracking);
+      const std::vector<int> mode = cheapest_pairing(cost);
+      double saved = cost.trace();
+      for (std::size_t l = 0; l < names.size(); ++l) saved -= cost(static_cast<Eigen::Index>(l), mode[l]);
+      if (saved <= 1e-9) continue;
+      for (std::size_t l = 0; l < names.size(); ++l) labels[static_cast<std::size_t>(mode[l])] = names[l];
+      exchanged = true;
+    }
+  }
+}
+
 /// Votes of the nearest postures on each label of a posture.
-void doubt(const std::vector<Modes>& postures, const Eigen::MatrixXd& distance, int neighbours, Tracking& tracking) {
+void doubt(const std::vector<Modes>& postures, const Neighbours& nearest, Tracking& tracking) {
   for (std::size_t i = 0; i < postures.size(); ++i) {
-    std::vector<std::size_t> nearest(postures.size());
-    std::iota(nearest.begin(), nearest.end(), std::size_t{0});
-    const auto at = static_cast<Eigen::Index>(i);
-    std::stable_sort(nearest.begin(), nearest.end(), [&](std::size_t a, std::size_t b) {
-      return distance(at, static_cast<Eigen::Index>(a)) < distance(at, static_cast<Eigen::Index>(b));
-    });
     std::vector<int> votes(postures[i].size(), 0);
-    for (std::size_t k = 1; k < std::min(nearest.size(), static_cast<std::size_t>(neighbours) + 1); ++k) {
-      const Modes& of_other = postures[nearest[k]];
+    for (const std::size_t other : nearest[i]) {
+      const Modes& of_other = postures[other];
       if (of_other.empty() || postures[i].empty()) continue;
       const Eigen::MatrixXd cost = unlikeness_of(of_other, postures[i]);
       const std::vector<int> pair = cheapest_pairing(cost);
       for (std::size_t m = 0; m < pair.size(); ++m) {
         if (pair[m] < 0 || cost(static_cast<Eigen::Index>(m), pair[m]) > most_unlike) continue;
         const auto mine = static_cast<std::size_t>(pair[m]);
-        votes[mine] += tracking.label[nearest[k]][m] == tracking.label[i][mine] ? 1 : -1;
+        votes[mine] += tracking.label[other][m] == tracking.label[i][mine] ? 1 : -1;
       }
     }
     for (std::size_t m = 0; m < votes.size(); ++m) tracking.doubtful[i][m] = votes[m] < 0;
@@ -264,9 +315,15 @@ Tracking track(const std::vector<std::vector<FittedMode>>& of_postures,
   Eigen::Index middle = 0;
   distance.colwise().sum().minCoeff(&middle);
   Tracking tracking = follow(postures, spanning_tree(distance, middle));
+  Neighbours alike(postures.size());
+  add_nearest(distance, neighbours, alike);
+  Neighbours near = alike;
+  const Eigen::MatrixXd apart = places.size() > 0 ? distances(places) : Eigen::MatrixXd();
+  if (places.size() > 0) add_nearest(apart, neighbours, near);
+  exchange_names(postures, near, tracking);
   number(postures, tracking);
-  doubt(postures, distance, neighbours, tracking);
-  if (places.size() > 0) doubt_by(follow(postures, spanning_tree(distances(places), middle)), tracking);
+  doubt(postures, alike, tracking);
+  if (places.size() > 0) doubt_by(follow(postures, spanning_tree(apart, middle)), tracking);
   return tracking;
 }
 

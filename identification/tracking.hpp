@@ -25,9 +25,11 @@ struct Tracking {
 /// cheapest pairing by unlikeness() costs, so that neither the places nor a scale for them are needed; it follows
 /// crossings because shapes change less between neighbours than the order of frequencies does. A mode of a label that
 /// the parent does not have is compared with the nearest ancestor that has it, so that a gap ends no label; one that is
-/// unlike all by more than 3 begins a new one. Then every posture's pairs with the `neighbours` postures that differ
-/// least are looked at: where more of them contradict a label than agree with it, it is doubtful. Labels are numbered
-/// by the mean frequency of their modes. `turned`: the same modes in another frame, such as that of the tip, in which
+/// unlike all by more than 3 begins a new one. The tree hears one neighbour of each posture; then labels of a posture
+/// are exchanged where that lowers the cost against all of the `neighbours` postures that differ least, and of as many
+/// that lie nearest, until nothing changes (iterated conditional modes, Besag 1986). Where more of those that differ
+/// least contradict a label than agree with it, it is doubtful. Labels are numbered by the mean frequency of their
+/// modes. `turned`: the same modes in another frame, such as that of the tip, in which
 /// those of a spindle hardly change while those of an arm do; two modes are as unlike as in the frame in which they are
 /// less. `places`: a row a posture, whose columns count by their ranges. With them the modes are followed a second
 /// time, along the shortest tree that spans the places, and a name that is another one on this way is doubtful, too:

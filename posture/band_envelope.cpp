@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include "core/error.hpp"
@@ -17,6 +18,31 @@ Eigen::VectorXd depths_of(const std::vector<FittedMode>& modes, const PostureCut
   if (modes.empty() && !cut.beside && rest.size() == 0)
     return Eigen::VectorXd::Constant(std::ssize(cut.spindle_speeds_rpm), std::numeric_limits<double>::infinity());
   return limiting_depths(modes, cut, rest);
+}
+
+/// The poles of a structure with |λ| at the split or above it, with what the poles leave out, or those below it.
+milling::RelativeStructure part_of(const milling::RelativeStructure& structure, double split_hz, bool above) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index k = 0; k < structure.poles.size(); ++k) {
+    if ((std::abs(structure.poles(k)) >= 2.0 * std::numbers::pi * split_hz) == above) kept.push_back(k);
+  }
+  milling::RelativeStructure part{structure.poles(kept), structure.phi(Eigen::all, kept), structure.b(Eigen::all, kept),
+                                  Eigen::Matrix3d::Zero()};
+  if (above) part.R = structure.R;
+  return part;
+}
+
+/// The envelope of a structure's own poles.
+BandEnvelope envelope_of_poles(const milling::RelativeStructure& structure, const PostureCut& cut, double split_hz) {
+  const auto depths = [&](bool above) -> Eigen::VectorXd {
+    const milling::RelativeStructure part = part_of(structure, split_hz, above);
+    if (part.poles.size() == 0 && part.R.isZero(0.0))
+      return Eigen::VectorXd::Constant(std::ssize(cut.spindle_speeds_rpm), std::numeric_limits<double>::infinity());
+    return limiting_depths(part, cut);
+  };
+  BandEnvelope result{split_hz, depths(false), depths(true), {}, limiting_depths(structure, cut)};
+  result.lower = result.low.cwiseMin(result.high);
+  return result;
 }
 
 }  // namespace
@@ -37,6 +63,7 @@ double widest_gap_hz(const std::vector<FittedMode>& modes) {
 
 BandEnvelope band_envelope(const std::vector<FittedMode>& modes, const PostureCut& cut, double split_hz,
                            const Eigen::MatrixXd& rest) {
+  if (cut.structure_by) return envelope_of_poles(cut.structure_by(modes), cut, split_hz);
   std::vector<FittedMode> low, high;
   for (const FittedMode& mode : modes) (mode.frequency_hz < split_hz ? low : high).push_back(mode);
   PostureCut robot_alone = cut;

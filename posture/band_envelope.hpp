@@ -22,8 +22,8 @@ struct BandEnvelope {
 
 /// Stability of the low and of the high modes separately and the lowest envelope of both, as Lei 2022, Fig. 29 has it,
 /// beside the stability of all modes together. The rest (m/N; empty: none) and what yields beside the robot
-/// (`cut.beside`, as a tool) count to the high ones, whose cuts are fast enough to feel them. Throws as
-/// limiting_depths(). Cost: three times that.
+/// (`cut.beside`, as a tool) count to the high ones, whose cuts are fast enough to feel them. With
+/// cut.structure_by its poles are split in place of the modes. Throws as limiting_depths(). Cost: three times that.
 [[nodiscard]] BandEnvelope band_envelope(const std::vector<identification::FittedMode>& modes, const PostureCut& cut,
                                          double split_hz, const Eigen::MatrixXd& rest = {});
 

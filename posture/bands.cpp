@@ -154,6 +154,7 @@ FrfBand frf_band_from_draws(const PosturePrediction& prediction, const std::vect
 
 milling::RelativeStructure structure_of(const std::vector<FittedMode>& modes, const PostureCut& cut,
                                         const Eigen::MatrixXd& rest) {
+  if (cut.structure_by) return cut.structure_by(modes);
   milling::RelativeStructure structure;
   for (const FittedMode& mode : modes) {
     const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(felt(mode.residue, cut), Eigen::ComputeThinU | Eigen::ComputeThinV);
@@ -172,7 +173,10 @@ milling::RelativeStructure structure_of(const std::vector<FittedMode>& modes, co
 
 Eigen::VectorXd limiting_depths(const std::vector<FittedMode>& modes, const PostureCut& cut,
                                 const Eigen::MatrixXd& rest) {
-  const milling::RelativeStructure structure = structure_of(modes, cut, rest);
+  return limiting_depths(structure_of(modes, cut, rest), cut);
+}
+
+Eigen::VectorXd limiting_depths(const milling::RelativeStructure& structure, const PostureCut& cut) {
   milling::StabilityOptions options = cut.stability;
   options.follow = 1.0;
   Eigen::VectorXd depths(static_cast<Eigen::Index>(cut.spindle_speeds_rpm.size()));

@@ -2,6 +2,7 @@
 // Receptances and limiting depths at a predicted posture, with their bands.
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -57,16 +58,23 @@ struct PostureCut {
   std::optional<milling::RelativeStructure> beside{};  ///< what yields beside the robot, as a tool; part axes
   bool cross_terms = true;  ///< false: a force yields a response along its own reference alone, as
                             ///< robot::without_cross_terms() has it; responses are then the references
+  /// The structure of a posture's modes where it is not their sum, as that of a robot whose tool is swapped for
+  /// another: what of the above tells how modes are felt is then not used, nor is the rest. Called by several threads
+  /// at once.
+  std::function<milling::RelativeStructure(const std::vector<identification::FittedMode>&)> structure_by{};
 };
 
 /// The structure that the cut feels, with what yields beside the robot. A residue gives as many pairs of shapes as its
-/// rank. `rest` is the static compliance that the modes leave out, m/N; empty: none.
+/// rank. `rest` is the static compliance that the modes leave out, m/N; empty: none. With cut.structure_by it is that.
 [[nodiscard]] milling::RelativeStructure structure_of(const std::vector<identification::FittedMode>& modes,
                                                       const PostureCut& cut, const Eigen::MatrixXd& rest = {});
 
 /// Limiting depths, m, at each speed. Throws as milling::limiting_depth().
 [[nodiscard]] Eigen::VectorXd limiting_depths(const std::vector<identification::FittedMode>& modes,
                                               const PostureCut& cut, const Eigen::MatrixXd& rest = {});
+
+/// Limiting depths of a structure, m, at each speed of the cut. Throws as milling::limiting_depth().
+[[nodiscard]] Eigen::VectorXd limiting_depths(const milling::RelativeStructure& structure, const PostureCut& cut);
 
 /// Limiting depths with their band, m, at each speed.
 struct DepthBand {

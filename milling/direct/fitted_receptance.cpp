@@ -142,11 +142,21 @@ Eigen::VectorXd common_share(const std::vector<Eigen::Matrix3cd>& rest) {
   return share;
 }
 
-FittedReceptance split(const SampledReceptance& samples, const dynamics::PartialFractions& sum) {
+/// The largest ‖H‖ of the lines.
+double largest_norm(const SampledReceptance& samples) {
   double largest = 0.0;
   for (const Eigen::Matrix3cd& H : samples.H) largest = std::max(largest, H.norm());
-  const double round_off = 1e-12 * largest;
-  FittedReceptance result{modes_of(sum, std::max(0.1 * rest_of_a_line(samples, sum), 1e-2 * round_off)), samples};
+  return largest;
+}
+
+/// The least peak of a mode that is told from what the sum leaves of the lines.
+double least_peak(const SampledReceptance& samples, const dynamics::PartialFractions& sum) {
+  return std::max(0.1 * rest_of_a_line(samples, sum), 1e-14 * largest_norm(samples));
+}
+
+FittedReceptance split(const SampledReceptance& samples, const dynamics::PartialFractions& sum) {
+  const double largest = largest_norm(samples), round_off = 1e-12 * largest;
+  FittedReceptance result{modes_of(sum, least_peak(samples, sum)), samples};
   std::vector<Eigen::Matrix3cd>& rest = result.remainder.H;
   for (std::size_t i = 0; i < rest.size(); ++i)
     rest[i] -= receptance(result.poles, 2.0 * pi * samples.frequency_hz(static_cast<Index>(i)));
@@ -188,22 +198,45 @@ SampledReceptance without_every_tenth(const SampledReceptance& samples, Index fr
   return rest;
 }
 
-}  // namespace
+/// The lines and each second of them, and the partial fractions of all three.
+struct Sums {
+  SampledReceptance even, odd;
+  dynamics::PartialFractions all_sum, even_sum, odd_sum;
+  double last_rad_s = 0.0;
+};
 
-FittedLines fitted(const SampledReceptance& samples) {
+Sums sums_of(const SampledReceptance& samples) {
   require_usable(samples);
   if (samples.H.size() < 14) {
     throw core::InputError("receptance at the cut: " + std::to_string(samples.H.size()) +
                            " frequency lines, at least 14 are needed; measure closer lines");
   }
-  const SampledReceptance even = every_second_line(samples, 0), odd = every_second_line(samples, 1);
-  const auto all_sum = dynamics::rational_fit(samples.frequency_hz, matrices(samples));
-  const auto even_sum = dynamics::vector_fit(even.frequency_hz, matrices(even), all_sum.poles);
-  const auto odd_sum = dynamics::vector_fit(odd.frequency_hz, matrices(odd), all_sum.poles);
-  const double last = 2.0 * pi * samples.frequency_hz(samples.frequency_hz.size() - 1);
+  Sums sums{every_second_line(samples, 0),
+            every_second_line(samples, 1),
+            dynamics::rational_fit(samples.frequency_hz, matrices(samples)),
+            {},
+            {},
+            2.0 * pi * samples.frequency_hz(samples.frequency_hz.size() - 1)};
+  sums.even_sum = dynamics::vector_fit(sums.even.frequency_hz, matrices(sums.even), sums.all_sum.poles);
+  sums.odd_sum = dynamics::vector_fit(sums.odd.frequency_hz, matrices(sums.odd), sums.all_sum.poles);
+  return sums;
+}
+
+}  // namespace
+
+RelativeStructure fitted_poles(const SampledReceptance& samples) {
+  const Sums sums = sums_of(samples);
+  const auto sum = agreed(sums.all_sum, {&sums.even_sum, &sums.odd_sum}, sums.last_rad_s);
+  return modes_of(sum, least_peak(samples, sum));
+}
+
+FittedLines fitted(const SampledReceptance& samples) {
+  const Sums sums = sums_of(samples);
+  const dynamics::PartialFractions &all_sum = sums.all_sum, &even_sum = sums.even_sum, &odd_sum = sums.odd_sum;
+  const double last = sums.last_rad_s;
   FittedLines result{split(samples, agreed(all_sum, {&even_sum, &odd_sum}, last)),
-                     split(even, agreed(even_sum, {&all_sum, &odd_sum}, last)),
-                     split(odd, agreed(odd_sum, {&all_sum, &even_sum}, last)),
+                     split(sums.even, agreed(even_sum, {&all_sum, &odd_sum}, last)),
+                     split(sums.odd, agreed(odd_sum, {&all_sum, &even_sum}, last)),
                      split(samples, within(all_sum, last)),
                      {},
                      growing_pole(all_sum, {&even_sum, &odd_sum}, samples)};

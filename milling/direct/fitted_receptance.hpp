@@ -49,4 +49,8 @@ struct FittedLines {
 /// that of three fits.
 [[nodiscard]] FittedLines fitted(const SampledReceptance& samples);
 
+/// The poles of the fit of all lines alone, fitted().all.poles. Errors as fitted(). Cost: that of three fits, less its
+/// remainders and the fits without every tenth line.
+[[nodiscard]] RelativeStructure fitted_poles(const SampledReceptance& samples);
+
 }  // namespace thinwall::milling

@@ -28,20 +28,6 @@ std::size_t draws_of_tool(const CutSetup& source) {
   return source.tool && source.tool->fitted ? source.tool->fitted->drawn.size() : 0;
 }
 
-/// The modes of the tip and the point up as the swap names them, in the part's axes.
-dynamics::ModalTable modes_for_swap(const TabledRobot& robot, const ToolSwap& swap) {
-  dynamics::ModalTable table = used_part(robot, *robot.table_modes);
-  Eigen::VectorXd place = Eigen::VectorXd::Zero(std::ssize(table.dofs));
-  for (std::size_t i = 0; i < table.dofs.size(); ++i) {
-    dynamics::Dof& dof = table.dofs[i];
-    const bool at_tip = dof.point == robot.table_point;
-    if (!at_tip) place(static_cast<Eigen::Index>(i)) = swap.distance;
-    dof = {at_tip ? swap.tip : swap.up, robot.base.linear() * dof.direction, dof.kind};
-  }
-  for (dynamics::ModalTableRow& row : table.rows) row.place_m = place;
-  return table;
-}
-
 }  // namespace
 
 Eigen::VectorXd asked_joints(const Setup& source, const TabledRobot& robot) {
@@ -59,10 +45,24 @@ bool awaits_learning(const SupportSetup& source) {
   return robot != nullptr && robot->postures && !robot->table_modes;
 }
 
+dynamics::ModalTable modes_for_swap(const TabledRobot& robot, const dynamics::ModalTable& modes, const ToolSwap& swap) {
+  dynamics::ModalTable table = used_part(robot, modes);
+  Eigen::VectorXd place = Eigen::VectorXd::Zero(std::ssize(table.dofs));
+  for (std::size_t i = 0; i < table.dofs.size(); ++i) {
+    dynamics::Dof& dof = table.dofs[i];
+    const bool at_tip = dof.point == robot.table_point;
+    if (!at_tip) place(static_cast<Eigen::Index>(i)) = swap.distance;
+    dof = {at_tip ? swap.tip : swap.up, robot.base.linear() * dof.direction, dof.kind};
+  }
+  for (dynamics::ModalTableRow& row : table.rows) row.place_m = place;
+  return table;
+}
+
 void give_modes_to_swap(CutSetup& cut, const SupportSetup& support) {
   const TabledRobot* robot = tabled_robot(support.robot);
   if (!cut.tool || !swapped_on_robot(*cut.tool) || robot == nullptr || !robot->table_modes || !robot->up) return;
-  cut.tool->swap->table = std::make_shared<const dynamics::ModalTable>(modes_for_swap(*robot, *cut.tool->swap));
+  cut.tool->swap->table =
+      std::make_shared<const dynamics::ModalTable>(modes_for_swap(*robot, *robot->table_modes, *cut.tool->swap));
 }
 
 void identify(Setup& source) {

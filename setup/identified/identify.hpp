@@ -24,6 +24,11 @@ namespace thinwall::setup {
 /// the fit name tool.fit. Cost: theirs.
 void identify(Setup& source);
 
+/// Modes over the DOFs of a robot's tables as a tool that is swapped in at them takes them: those of the tip and the
+/// point up, by the names of the swap, in the part's axes. Errors as used_part().
+[[nodiscard]] dynamics::ModalTable modes_for_swap(const TabledRobot& robot, const dynamics::ModalTable& modes,
+                                                  const ToolSwap& swap);
+
 /// Gives a tool that is swapped in at the robot's modes those of the robot's table, in the part's axes; does nothing of
 /// another tool, or where the table is not known yet.
 void give_modes_to_swap(CutSetup& cut, const SupportSetup& support);

@@ -125,7 +125,7 @@ dynamics::ResponseModel with_rotations(const dynamics::ResponseModel& measured, 
 
 /// What both swaps of a case have in common, whatever was measured.
 struct Swap {
-  const setup::ToolSwap& of;
+  setup::ToolSwap of;
   Vector3d axis;
   std::vector<Vector3d> directions;
   coupling::HeldTool reference, target;
@@ -237,12 +237,16 @@ SwappedTip swapped_tip(const setup::CutSetup& source) {
   return in_space(swapped_response(swap, source.cutting->tool_axis, with_reference(swap, source.cutting->tool_axis)));
 }
 
-std::vector<SwappedTip> swapped_tips(const setup::CutSetup& source, const std::vector<dynamics::ModalTable>& tables) {
+TipOfModes tip_of_modes(const setup::CutSetup& source) {
   const dynamics::ResponseModel expected = with_reference(*source.tool->swap, source.cutting->tool_axis);
-  const Swap swap = swap_on(*source.tool->swap, source.cutting->tool_axis, expected);
+  return [axis = expected.axis, swap = swap_on(*source.tool->swap, source.cutting->tool_axis, expected)](
+             const dynamics::ModalTable& table) { return in_space(swapped(swap, response_of(table, axis))); };
+}
+
+std::vector<SwappedTip> swapped_tips(const setup::CutSetup& source, const std::vector<dynamics::ModalTable>& tables) {
+  const TipOfModes tip = tip_of_modes(source);
   std::vector<SwappedTip> tips(tables.size());
-  core::parallel_for(tables.size(),
-                     [&](std::size_t i) { tips[i] = in_space(swapped(swap, response_of(tables[i], expected.axis))); });
+  core::parallel_for(tables.size(), [&](std::size_t i) { tips[i] = tip(tables[i]); });
   return tips;
 }
 

@@ -2,6 +2,7 @@
 // The tip of the case's tool from FRFs that were measured with another tool in its place, or from the modes of the
 // robot that carries it.
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -40,8 +41,14 @@ struct SwappedResponse {
 /// that are missing (named) and a table that was not given (setup::identify()), and DataError as io::resample().
 [[nodiscard]] SwappedTip swapped_tip(const setup::CutSetup& source);
 
-/// The tips of other tables of modes in place of the swap's own, on its lines. Errors as swapped_tip(). Cost: a swap of
-/// some 10 µs a line for each table, shared out among the threads.
+/// The tip of another table of modes in place of the swap's own, on its lines. It may be called by several threads at
+/// once. Errors as swapped_tip(). Cost: some 10 µs a line.
+using TipOfModes = std::function<SwappedTip(const dynamics::ModalTable&)>;
+
+/// What swaps of other tables have in common is computed once. Errors as swapped_tip().
+[[nodiscard]] TipOfModes tip_of_modes(const setup::CutSetup& source);
+
+/// tip_of_modes() of tables, shared out among the threads.
 [[nodiscard]] std::vector<SwappedTip> swapped_tips(const setup::CutSetup& source,
                                                    const std::vector<dynamics::ModalTable>& tables);
 

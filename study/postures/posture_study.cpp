@@ -9,12 +9,15 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "milling/direct/fitted_receptance.hpp"
 #include "setup/identified/arm_mean.hpp"
 #include "setup/identified/identify.hpp"
 #include "setup/identified/learned_modes.hpp"
 #include "setup/identified/posture_tables.hpp"
+#include "setup/identified/table_modes.hpp"
 #include "setup/milling_process.hpp"
 #include "study/lobes/cut_structure.hpp"
+#include "study/lobes/tool_swap.hpp"
 
 namespace thinwall::study {
 
@@ -74,11 +77,7 @@ std::vector<double> chart_speeds(const setup::Setup& source) {
 std::optional<posture::PostureCut> cut_of(const setup::Setup& source, const setup::TabledRobot& robot,
                                           std::vector<std::string>& notes) {
   if (!setup::carries_tool(source.robot) || !source.tool || !source.cutting) return std::nullopt;
-  if (setup::swapped_on_robot(*source.tool)) {
-    notes.emplace_back("no depths: they are those of the tool that is swapped in, which `run` charts at robot.at");
-    return std::nullopt;
-  }
-  if (setup::known_by_lines(*source.tool) || setup::awaits_fit(source))
+  if ((setup::known_by_lines(*source.tool) && !setup::swapped_on_robot(*source.tool)) || setup::awaits_fit(source))
     throw core::InputError("the tool is known by lines, must have poles beside the robot's; give tool.modes");
   posture::PostureCut cut;
   cut.process = setup::milling_process(source);
@@ -93,9 +92,23 @@ std::optional<posture::PostureCut> cut_of(const setup::Setup& source, const setu
   cut.cross_terms = robot.cross_terms;
   cut.stability.depth_limit_m = source.lobes ? source.lobes->depth_limit : source.tool->length;
   cut.stability.error_tolerance = depth_tolerance;
-  cut.beside = cut_poles(source, nullptr);
+  if (!setup::swapped_on_robot(*source.tool)) cut.beside = cut_poles(source, nullptr);
   if (source.part) notes.emplace_back("depths count the part as rigid; `run` has them with the part");
   return cut;
+}
+
+/// The poles of the tip with the tool that is swapped in, by the robot's modes with the tool that was tapped: on the
+/// lines that those at robot.at have.
+void swap_tool(const setup::Setup& source, const setup::TabledRobot& robot, const posture::PosturePrediction& at,
+               posture::PostureCut& cut) {
+  const auto table_for_swap = [robot, swap = *source.tool->swap](const std::vector<identification::FittedMode>& modes) {
+    return setup::modes_for_swap(robot, setup::table_of(modes, setup::learned_dofs(robot)), swap);
+  };
+  setup::CutSetup there = source;
+  there.tool->swap->table = std::make_shared<const dynamics::ModalTable>(table_for_swap(posture::expected_modes(at)));
+  cut.structure_by = [table_for_swap, tip = tip_of_modes(there)](const std::vector<identification::FittedMode>& modes) {
+    return milling::fitted_poles(tip(table_for_swap(modes)).tip);
+  };
 }
 
 /// The speed of the depths: one that is asked for, the case's, else the best of the chart at robot.at.
@@ -190,6 +203,10 @@ PostureStudy study_postures(const setup::Setup& source, const PostureQuestions& 
   study.postures = learned.learning.postures;
   tell_learning(learned, questions, study);
   if (cut) {
+    if (setup::swapped_on_robot(*source.tool)) {
+      swap_tool(source, robot, at, *cut);
+      study.notes.emplace_back("depths are those of the tool that is swapped in");
+    }
     study.spindle_speed_rpm = chosen_speed(source, questions, *cut, at);
     cut->spindle_speeds_rpm = {*study.spindle_speed_rpm};
   }

@@ -66,7 +66,8 @@ struct PostureStudy {
 };
 
 /// Learns the modes of `source.robot` over its postures (setup::posture_learning(), as `run` does), and answers. Depths
-/// are those of a robot that carries the tool, with the tool's modes beside it and a rigid part. Throws InputError for
+/// are those of a robot that carries the tool, with the tool's modes beside it and a rigid part; of a tool that is
+/// swapped in at the robot's modes, those of the tip by each posture's modes. Throws InputError for
 /// a set-up whose robot has no postures, for a measured tool, for places with another number of columns, and as
 /// setup::read_posture_tables(), setup::posture_learning(), setup::place_at() and the functions of posture/. Cost: a
 /// Predictor, one a fold and one a point of each curve; of the map, draws × places limiting depths.

@@ -4,15 +4,19 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <fstream>
 #include <numbers>
+#include <random>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "posture/learning_curve.hpp"
 #include "posture/mode_targets.hpp"
+#include "tests/posture/arm_with_truth.hpp"
 
 namespace thinwall::posture::tracking_test {
 namespace {
@@ -83,16 +87,87 @@ struct Count {
   int modes = 0, other = 0, other_unsaid = 0, doubtful = 0;
 };
 
-/// Names are numbered by mean frequency on both sides, so that equal ones are equal numbers.
-Count count(const identification::Tracking& tracking, const std::vector<std::vector<int>>& truth) {
+/// The true name with which each name shares most modes.
+std::vector<int> true_names(const identification::Tracking& tracking, const std::vector<std::vector<int>>& truth) {
+  Eigen::MatrixXi shared = Eigen::MatrixXi::Zero(tracking.labels, 20);
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    for (std::size_t k = 0; k < truth[i].size(); ++k) ++shared(tracking.label[i][k], truth[i][k]);
+  }
+  std::vector<int> names(static_cast<std::size_t>(tracking.labels));
+  for (std::size_t l = 0; l < names.size(); ++l) {
+    Eigen::Index most = 0;
+    shared.row(static_cast<Eigen::Index>(l)).maxCoeff(&most);
+    names[l] = static_cast<int>(most);
+  }
+  return names;
+}
+
+/// Names that are not true ones, but for those of `left_out`.
+Count count(const identification::Tracking& tracking, const std::vector<std::vector<int>>& truth,
+            const std::vector<std::vector<bool>>& left_out = {}) {
+  const std::vector<int> name = true_names(tracking, truth);
   Count result;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     for (std::size_t k = 0; k < truth[i].size(); ++k) {
-      const bool other = tracking.label[i][k] != truth[i][k], doubtful = tracking.doubtful[i][k];
+      const bool counts = left_out.empty() || !left_out[i][k];
+      const bool other = counts && name[static_cast<std::size_t>(tracking.label[i][k])] != truth[i][k],
+                 doubtful = tracking.doubtful[i][k];
       ++result.modes;
       result.other += other ? 1 : 0;
       result.other_unsaid += other && !doubtful ? 1 : 0;
       result.doubtful += doubtful ? 1 : 0;
+    }
+  }
+  return result;
+}
+
+/// The modes of some postures of a grid.
+Grid part_of(const Grid& grid, const std::vector<std::size_t>& rows) {
+  Grid part{grid.places(std::vector<Eigen::Index>(rows.begin(), rows.end()), Eigen::all), {}, {}, {}};
+  for (const std::size_t i : rows) {
+    part.modes.push_back(grid.modes[i]);
+    part.turned.push_back(grid.turned[i]);
+    part.truth.push_back(grid.truth[i]);
+  }
+  return part;
+}
+
+/// The mode of a posture with a true name.
+const identification::FittedMode& named(const Grid& grid, std::size_t at, int name) {
+  return grid.modes[at][static_cast<std::size_t>(std::ranges::find(grid.truth[at], name) - grid.truth[at].begin())];
+}
+
+/// What the exchange of two modes of a posture would cost, summed over the six nearest places of the whole grid.
+double cost_of_exchange(const Grid& grid, std::size_t at, std::size_t a, std::size_t b) {
+  const Eigen::RowVector3d range = grid.places.colwise().maxCoeff() - grid.places.colwise().minCoeff();
+  std::vector<std::pair<double, std::size_t>> nearest;
+  for (std::size_t i = 0; i < grid.modes.size(); ++i) {
+    const auto apart = grid.places.row(static_cast<Eigen::Index>(i)) - grid.places.row(static_cast<Eigen::Index>(at));
+    nearest.emplace_back(apart.cwiseQuotient(range).norm(), i);
+  }
+  std::ranges::sort(nearest);
+  double cost = 0.0;
+  for (std::size_t k = 1; k <= 6; ++k) {
+    const auto& of_a = named(grid, nearest[k].second, grid.truth[at][a]);
+    const auto& of_b = named(grid, nearest[k].second, grid.truth[at][b]);
+    const identification::FittedMode &mine_a = grid.modes[at][a], &mine_b = grid.modes[at][b];
+    cost += identification::unlikeness(of_a, mine_b) + identification::unlikeness(of_b, mine_a) -
+            identification::unlikeness(of_a, mine_a) - identification::unlikeness(of_b, mine_b);
+  }
+  return cost;
+}
+
+/// Modes of the low band whose names by small steps jump: exchanged they would agree better with the places around
+/// them. Around an exceptional point names have to jump somewhere.
+std::vector<std::vector<bool>> jumps(const Grid& grid) {
+  constexpr std::size_t low_modes = 7;
+  std::vector<std::vector<bool>> result;
+  for (std::size_t i = 0; i < grid.modes.size(); ++i) {
+    result.emplace_back(grid.modes[i].size(), false);
+    for (std::size_t a = 0; a < low_modes; ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
+        if (cost_of_exchange(grid, i, a, b) < 0.0) result[i][a] = result[i][b] = true;
+      }
     }
   }
   return result;
@@ -110,6 +185,55 @@ TEST(TrackedRobot, HasTrueNamesOrDoubtfulOnes) {
     EXPECT_LE(found.other, 12);
     EXPECT_EQ(found.other_unsaid, 0);
     EXPECT_LE(found.doubtful, 37);
+  }
+}
+
+/// Where 28, 42 and 56 postures of a design fill the workspace, names are true or doubtful, or those of small steps
+/// jump, which they do at two postures of 112; 3 % are doubtful at most. Postures that lie as chance has it, too, have
+/// no other names that nothing is said of.
+TEST(TrackedRobot, HasTrueNamesOrDoubtfulOnesOfFewPostures) {
+  const Grid grid = read_grid();
+  const std::vector<std::vector<bool>> jump = jumps(grid);
+  std::size_t jumping = 0;
+  for (const std::vector<bool>& of : jump) jumping += static_cast<std::size_t>(std::ranges::count(of, true));
+  EXPECT_LE(jumping, 4u);
+  std::vector<std::vector<std::size_t>> sets;
+  std::vector<std::size_t> order = spread_order(grid.places);
+  for (const std::ptrdiff_t count : {28, 42, 56}) sets.emplace_back(order.begin(), order.begin() + count);
+  const std::size_t designs = sets.size();
+  std::mt19937 random(3);
+  for (const std::ptrdiff_t count : {28, 35, 42, 56}) {
+    for (std::size_t i = order.size() - 1; i > 0; --i) std::swap(order[i], order[random() % (i + 1)]);
+    sets.emplace_back(order.begin(), order.begin() + count);
+  }
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    const Grid part = part_of(grid, sets[s]);
+    std::vector<std::vector<bool>> left_out;
+    for (const std::size_t i : sets[s]) left_out.push_back(jump[i]);
+    for (const Modes& turned : {Modes{}, part.turned}) {
+      const Count found = count(identification::track(part.modes, turned, part.places), part.truth, left_out);
+      EXPECT_EQ(found.other_unsaid, 0) << s;
+      if (s < designs && !turned.empty()) {
+        EXPECT_LE(found.doubtful, 0.03 * found.modes) << s;
+      }
+    }
+  }
+}
+
+/// Another robot, an elbow arm, whose full shapes were followed from the middle of its workspace.
+TEST(TrackedRobot, HasTrueNamesOfAnotherArm) {
+  const TappedArm arm = testing::true_arm();
+  for (const int count_of_postures : {28, 56}) {
+    Grid grid{Eigen::MatrixXd(count_of_postures, 3), {}, {}, {}};
+    for (const TappedPosture& posture : testing::tapped_postures(arm, testing::spread_places(count_of_postures, 5))) {
+      grid.places.row(std::ssize(grid.modes)) = posture.place.at.transpose();
+      grid.modes.push_back(posture.modes);
+      grid.truth.push_back(posture.label);
+    }
+    const Count found = count(identification::track(grid.modes, {}, grid.places), grid.truth);
+    EXPECT_EQ(found.modes, 5 * count_of_postures);
+    EXPECT_EQ(found.other_unsaid, 0);
+    EXPECT_LE(found.doubtful, 0.03 * found.modes);
   }
 }
 

@@ -252,6 +252,21 @@ TEST(BandEnvelope, CountsTheToolToTheHighModes) {
   EXPECT_EQ(no_low.high, limiting_depths(high, cut));
 }
 
+/// A structure that stands for the modes is what the depths and the envelope are of; its poles are split.
+TEST(BandEnvelope, SplitsThePolesOfAStructureThatStandsForTheModes) {
+  const PostureCut cut = slot_along_y({1100.0, 1400.0, 1700.0});
+  const auto modes = modes_at({{50.0, 0.02}, {64.0, 0.01}, {900.0, 1e-6}}), others = modes_at({{40.0, 0.05}});
+  PostureCut stood_for = cut;
+  stood_for.structure_by = [&](const std::vector<identification::FittedMode>&) { return structure_of(modes, cut); };
+  EXPECT_EQ(limiting_depths(others, stood_for), limiting_depths(modes, cut));
+  const BandEnvelope direct = band_envelope(modes, cut, 200.0), by_poles = band_envelope(others, stood_for, 200.0);
+  EXPECT_EQ(by_poles.low, direct.low);
+  EXPECT_EQ(by_poles.high, direct.high);
+  EXPECT_EQ(by_poles.lower, direct.lower);
+  EXPECT_EQ(by_poles.together, direct.together);
+  EXPECT_EQ(band_envelope(others, stood_for, 1e4).high(0), std::numeric_limits<double>::infinity());
+}
+
 /// Cross terms are left out of what the cut feels; the direct receptances stay, and so do those of the rest.
 TEST(StructureOf, LeavesOutCrossTerms) {
   identification::FittedMode mode;

@@ -21,6 +21,7 @@
 #include "study/lobes/drawn_structures.hpp"
 #include "study/lobes/lobes_stage.hpp"
 #include "study/lobes/tool_swap.hpp"
+#include "study/postures/posture_study.hpp"
 #include "tests/system/machine_in_postures.hpp"
 
 namespace thinwall::tests::swap_on_robot_test {
@@ -185,7 +186,7 @@ TEST(SwapOnRobot, TheSameToolGivesBackTheModes) {
 std::vector<double> true_depths(const Case& source, double u, const std::vector<double>& speeds_rpm) {
   const milling::MillingProcess process = setup::milling_process(source);
   const Eigen::Matrix3d R = process.frame.rotation();
-  milling::SampledStructure lines{{dynamics::logarithmic_axis(200.0, 20000.0, 2500).hz, {}}, {}};
+  milling::SampledStructure lines{{dynamics::logarithmic_axis(200.0, 20000.0, 800).hz, {}}, {}};
   const dynamics::ResponseModel truth =
       machine::only(dynamics::direct_response(assembled(u, target()), {lines.samples.frequency_hz}), {"1.x", "1.y"});
   for (const Eigen::MatrixXcd& H : truth.H) {
@@ -230,6 +231,33 @@ TEST(SwapOnRobot, AtAPostureBetweenTheTappedOnesHasTheDepthsOfTheMachine) {
   EXPECT_GE(within + 1, rpm.size()) << "ranges of 95 %";
   for (std::size_t i = 0; i < rpm.size(); ++i)
     EXPECT_LT(high[i] - low[i], 0.02 * depth[i]) << "six postures leave less than that open";
+}
+
+/// The answers over postures have the swapped tool, too: the depths of all modes at a posture between the tapped ones
+/// and those over the map are those of the machine with the carbide tool, most of which lie in their bands.
+TEST(SwapOnRobot, TheAnswersOnPosturesHaveTheDepthsOfTheMachine) {
+  const fs::path folder = own_folder();
+  write_postures(folder, 6, 16e3);
+  const Case source = parse_case(postures(1.3, carbide), folder);
+  study::PostureQuestions questions = study::questions_on({"map", "envelope"});
+  questions.grid = 3;
+  questions.spindle_speed_rpm = 14000.0;
+  const study::PostureStudy found = study::study_postures(source, questions);
+  ASSERT_TRUE(found.envelope);
+  const std::vector<double> truth = true_depths(source, 1.3, found.chart_rpm);
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    EXPECT_NEAR(found.envelope->together(static_cast<Eigen::Index>(i)), truth[i], 0.005 * truth[i]) << i;
+  EXPECT_TRUE((found.envelope->lower.array() <= found.envelope->low.array()).all());
+  std::size_t within = 0;
+  ASSERT_EQ(std::ssize(found.map), found.mapped_at.rows());
+  for (std::size_t i = 0; i < found.map.size(); ++i) {
+    ASSERT_TRUE(found.map[i].depth);
+    const posture::Banded& depth = found.map[i].depth->depth_m;
+    const double there = true_depths(source, found.mapped_at(static_cast<Eigen::Index>(i), 0), {14000.0})[0];
+    EXPECT_NEAR(depth.value, there, 0.005 * there) << i;
+    within += depth.low <= there && there <= depth.high ? 1 : 0;
+  }
+  EXPECT_GE(within + 1, found.map.size());
 }
 
 /// The change of the lines that is handed to the ranges is that of a draw's own modes, swapped by themselves.
