@@ -78,7 +78,7 @@ std::string_view meaning_of(const Schema& schema, std::string_view pattern) {
 
 using Faults = std::vector<std::pair<std::string, std::string>>;
 
-/// What is reported of a key at `path` that belongs to another alternative than the one that `chooser` has, `word`.
+/// Tells that the key at `path` belongs to another alternative than `word`, the one that `chooser` has.
 std::string foreign_text(const Belonging& belonging, const std::string& chooser, const std::string& word,
                          const std::string& path) {
   return "belongs to " + chooser + " = " + words_text(belonging) + ", but it is \"" + word + "\"; set " + chooser +
