@@ -78,6 +78,13 @@ std::string_view meaning_of(const Schema& schema, std::string_view pattern) {
 
 using Faults = std::vector<std::pair<std::string, std::string>>;
 
+/// Tells that the key at `path` belongs to another alternative than `word`, the one that `chooser` has.
+std::string foreign_text(const Belonging& belonging, const std::string& chooser, const std::string& word,
+                         const std::string& path) {
+  return "belongs to " + chooser + " = " + words_text(belonging) + ", but it is \"" + word + "\"; set " + chooser +
+         ", or remove " + std::string(last_name(path));
+}
+
 void add_foreign(const Schema& schema, const CaseValues& values, const CaseValue& value, Faults& faults) {
   const std::string pattern = pattern_of(schema, value.key);
   for (const Belonging& belonging : schema.belongings) {
@@ -88,8 +95,7 @@ void add_foreign(const Schema& schema, const CaseValues& values, const CaseValue
     const std::string chooser = chooser_of(belonging, value.key);
     const std::string word = chosen_word(schema, values, chooser, belonging.chooser);
     if (word.empty() || has_word(belonging, word)) continue;
-    faults.emplace_back(path, "belongs to " + chooser + " = " + words_text(belonging) + ", but it is \"" + word +
-                                  "\"; set " + chooser + ", or remove " + std::string(last_name(path)));
+    faults.emplace_back(path, foreign_text(belonging, chooser, word, path));
   }
 }
 

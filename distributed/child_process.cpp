@@ -65,7 +65,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& words, const std::map
   std::array<int, 2> in{}, out{};
   const int log = ::open(errors.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
   if (log < 0 || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, in.data()) != 0 ||
-       ::pipe2(out.data(), O_CLOEXEC) != 0)
+      ::pipe2(out.data(), O_CLOEXEC) != 0)
     throw core::DataError("cannot start " + words.front() + ": " + std::strerror(errno));
   const pid_t parent = ::getpid();
   pid_ = ::fork();

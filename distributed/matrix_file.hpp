@@ -12,8 +12,8 @@ namespace thinwall::distributed {
 /// Some rows of the upper triangle of a symmetric matrix, in compressed rows.
 struct UpperRows {
   std::int64_t rows_of_matrix = 0;
-  std::vector<int> start;    ///< rows read + 1
-  std::vector<int> column;   ///< of the whole matrix, ascending in a row
+  std::vector<int> start;   ///< rows read + 1
+  std::vector<int> column;  ///< of the whole matrix, ascending in a row
   std::vector<double> value;
 };
 

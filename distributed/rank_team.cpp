@@ -61,16 +61,14 @@ std::vector<std::string> launcher(int ranks) {
   return words;
 }
 
-/// The environment of the ranks. Open MPI would pin each rank with all its threads to one core, poll while a rank waits,
-/// count cores before it starts a process, refuse root, as which it runs in containers (this program's own user is the one
-/// who asked), and wait for a second before it ends ranks, in which it is ended itself and leaves its files.
+/// The environment of the ranks. Open MPI would pin each rank with all its threads to one core, poll while a rank
+/// waits, count cores before it starts a process, refuse root, as which it runs in containers (this program's own user
+/// is the one who asked), and wait for a second before it ends ranks, in which it is ended itself and leaves its files.
 std::map<std::string, std::string> environment(int threads) {
-  std::map<std::string, std::string> result{{"OMP_NUM_THREADS", std::to_string(threads)},
-                                            {"OPENBLAS_NUM_THREADS", std::to_string(threads)},
-                                            {"OMPI_MCA_hwloc_base_binding_policy", "none"},
-                                            {"OMPI_MCA_mpi_yield_when_idle", "1"},
-                                            {"OMPI_MCA_rmaps_base_oversubscribe", "1"},
-                                            {"OMPI_MCA_odls_base_sigkill_timeout", "0"}};
+  std::map<std::string, std::string> result{
+      {"OMP_NUM_THREADS", std::to_string(threads)},   {"OPENBLAS_NUM_THREADS", std::to_string(threads)},
+      {"OMPI_MCA_hwloc_base_binding_policy", "none"}, {"OMPI_MCA_mpi_yield_when_idle", "1"},
+      {"OMPI_MCA_rmaps_base_oversubscribe", "1"},     {"OMPI_MCA_odls_base_sigkill_timeout", "0"}};
   if (::geteuid() == 0) {
     result["OMPI_ALLOW_RUN_AS_ROOT"] = "1";
     result["OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"] = "1";
@@ -205,7 +203,8 @@ struct RankTeam::Impl {
   }
 
   void start();
-  linalg::FactorStatistics factorise(const std::string& number, const linalg::SparseMatrix& A, const linalg::FactorOptions& limits);
+  linalg::FactorStatistics factorise(const std::string& number, const linalg::SparseMatrix& A,
+                                     const linalg::FactorOptions& limits);
   Eigen::MatrixXd solve(const std::string& number, const Eigen::Ref<const Eigen::MatrixXd>& B);
 };
 
@@ -231,12 +230,12 @@ void RankTeam::Impl::start() {
   ready >> size;
   std::getline(ready, library);
   if (size != options.ranks) {
-    throw core::UsageError("--ranks " + std::to_string(options.ranks) + ": " + words.front() + " started processes of " +
-                           std::to_string(size) + " rank each: it is not the one of" + library +
-                           ", with which thinwall-mpi was built; name that in THINWALL_MPIRUN");
+    throw core::UsageError("--ranks " + std::to_string(options.ranks) + ": " + words.front() +
+                           " started processes of " + std::to_string(size) + " rank each: it is not the one of" +
+                           library + ", with which thinwall-mpi was built; name that in THINWALL_MPIRUN");
   }
-  core::inform(fmt::format("{} of {} thread{} each,{}", ranks_text(size), options.threads, options.threads == 1 ? "" : "s",
-                           library));
+  core::inform(fmt::format("{} of {} thread{} each,{}", ranks_text(size), options.threads,
+                           options.threads == 1 ? "" : "s", library));
 }
 
 /// The memory and time that the analysis of a matrix foresees (docs/scaling.md).
@@ -280,11 +279,11 @@ void require_memory(const RankForecast& told, const TeamOptions& options, double
   constexpr double most = 1e6;
   const int enough = static_cast<int>(std::min(std::ceil(ranks * told.machine_bytes / limit), most));
   throw linalg::MemoryLimitError(
-      fmt::format("the factor of a matrix of {} rows takes {} with {} on one machine, more than the {} that it has: take "
-                  "{} ranks, spread over more machines{}",
-                  rows, memory_text(told.machine_bytes), ranks_text(ranks), memory_text(limit),
-                  std::max(enough, ranks + 1),
-                  options.on_disk ? "" : ", or --low-memory, which keeps the factor on disk"),
+      fmt::format(
+          "the factor of a matrix of {} rows takes {} with {} on one machine, more than the {} that it has: take "
+          "{} ranks, spread over more machines{}",
+          rows, memory_text(told.machine_bytes), ranks_text(ranks), memory_text(limit), std::max(enough, ranks + 1),
+          options.on_disk ? "" : ", or --low-memory, which keeps the factor on disk"),
       told.machine_bytes, limit);
 }
 
@@ -314,8 +313,8 @@ linalg::FactorStatistics RankTeam::Impl::factorise(const std::string& number, co
   std::istringstream words = ask("analyse " + number + (options.on_disk ? " 1" : " 0"), "analysed");
   const RankForecast told = forecast_of(words);
   fs::remove(matrix());
-  core::inform(fmt::format("{} rows on {}: {} to {} a rank{}, about {} for the factor", A.rows(), ranks_text(options.ranks),
-                           memory_text(told.least_bytes), memory_text(told.most_bytes),
+  core::inform(fmt::format("{} rows on {}: {} to {} a rank{}, about {} for the factor", A.rows(),
+                           ranks_text(options.ranks), memory_text(told.least_bytes), memory_text(told.most_bytes),
                            options.on_disk ? ", " + memory_text(told.statistics.bytes) + " on disk" : "",
                            core::readable_text(told.seconds, core::kind::time)));
   require_memory(told, options, limits.memory_limit_bytes, A.rows());
@@ -414,11 +413,12 @@ const RankCost& RankTeam::latest() const {
 
 DistributedFactors::DistributedFactors(const TeamOptions& options)
     : team_(options),
-      before_(linalg::set_factoriser([this, least = options.least_rows](
-                                         const linalg::SparseMatrix& A, const linalg::FactorOptions& limits)
-                                         -> std::unique_ptr<linalg::ExternalFactor> {
-        return A.rows() < least ? nullptr : team_.factorise(A, limits);
-      })) {}
+      before_(
+          linalg::set_factoriser([this, least = options.least_rows](
+                                     const linalg::SparseMatrix& A,
+                                     const linalg::FactorOptions& limits) -> std::unique_ptr<linalg::ExternalFactor> {
+            return A.rows() < least ? nullptr : team_.factorise(A, limits);
+          })) {}
 
 DistributedFactors::~DistributedFactors() {
   linalg::set_factoriser(std::move(before_));

@@ -19,7 +19,7 @@ namespace thinwall::distributed {
 /// Options of a team.
 struct TeamOptions {
   int ranks = 2;
-  int threads = 1;          ///< of each rank
+  int threads = 1;        ///< of each rank
   bool on_disk = false;   ///< the factor goes to files in TMPDIR, and a rank holds its largest fronts only
   int least_rows = 5000;  ///< smaller matrices stay with this process, which is quicker for them
 };
@@ -45,9 +45,9 @@ class RankTeam {
   RankTeam(const RankTeam&) = delete;
   RankTeam& operator=(const RankTeam&) = delete;
 
-  /// The factor of A: its memory is told before the numeric phase and compared with what is free on each machine. Throws
-  /// MemoryLimitError with the number of ranks that would do; NumericalError if A is not positive definite or a rank
-  /// dies; Interrupted. The team must outlive it.
+  /// The factor of A: its memory is told before the numeric phase and compared with what is free on each machine.
+  /// Throws MemoryLimitError with the number of ranks that would do; NumericalError if A is not positive definite or a
+  /// rank dies; Interrupted. The team must outlive it.
   [[nodiscard]] std::unique_ptr<linalg::ExternalFactor> factorise(const linalg::SparseMatrix& A,
                                                                   const linalg::FactorOptions& options);
 

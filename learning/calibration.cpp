@@ -180,6 +180,7 @@ Calibration calibrate(CutModel model, const ChainOptions& options) {
   c.model = std::move(model);
   std::vector<Likeliest> tops = maxima(c.model);
   std::vector<Region> regions;
+  regions.reserve(tops.size());
   for (const Likeliest& top : tops) regions.push_back({top.x, top.covariance});
   c.likeliest = std::move(tops.front());
   InterpolatedCuts prediction(c.model, places_about(regions));

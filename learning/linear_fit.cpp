@@ -22,7 +22,7 @@ LinearFit linear_fit(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   if (fit.degrees_of_freedom < 0 || !(length.minCoeff() > 0.0)) return fit;
   const Eigen::MatrixXd scaled = A * length.cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd(scaled.transpose() * scaled));
-  const Eigen::VectorXd values = eigen.eigenvalues();
+  const Eigen::VectorXd& values = eigen.eigenvalues();
   fit.condition = std::sqrt(values(values.size() - 1) / std::max(values(0), 1e-300));
   const Eigen::MatrixXd inverse =
       eigen.eigenvectors() * values.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();

@@ -55,7 +55,7 @@ std::string test_to_add(const std::vector<MeanForceTest>& tests) {
 
 /// linear_fit(), refused where the tests do not tell the coefficients apart.
 LinearFit solve(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const std::vector<MeanForceTest>& tests) {
-  const LinearFit fit = linear_fit(A, b);
+  LinearFit fit = linear_fit(A, b);
   if (fit.condition < largest_condition) return fit;
   std::ostringstream text;
   text << "coefficients: " << tests.size() << " tests do not tell them apart (condition " << fit.condition

@@ -162,6 +162,7 @@ std::optional<NextCut> next_cut_for_best_speed(const Calibration& calibration, s
                                                const std::vector<milling::OperatingPoint>& candidates) {
   const auto best = of_each(draws_for(calibration, draws, candidates), [&](const Draw& draw) {
     std::vector<std::optional<double>> limits;
+    limits.reserve(speeds_rpm.size());
     for (const double rpm : speeds_rpm) limits.push_back(limit_at(draw.cut, rpm, calibration.model.options));
     return best_speed_rpm(speeds_rpm, limits);
   });

@@ -9,7 +9,8 @@ import subprocess
 
 def shared_run(program, root, case, settings=()):
     """The folder of results of `thinwall run cases/CASE --set SETTING …` below the build folder, to be read and copied only,
-    and the exit code of that run. Another test that asks at the same time waits; a program that was built anew runs again."""
+    and the exit code of that run. Another test that asks at the same time waits; a program that was built anew runs again.
+    The case is named as the pages name it, from its repository's root: what is kept of files goes by their names, too."""
     built = program.stat()
     key = hashlib.sha256("\n".join([case, *settings]).encode()).hexdigest()[:12]
     place = program.parents[1] / "tests" / "runs" / f"{case}-{key}"
@@ -22,7 +23,7 @@ def shared_run(program, root, case, settings=()):
         if known[:1] != [wanted]:
             shutil.rmtree(folder, ignore_errors=True)
             words = [word for setting in settings for word in ("--set", setting)]
-            done = subprocess.run([program, "run", root / "cases" / case, "--out", folder, "-q", *words],
+            done = subprocess.run([program, "run", f"cases/{case}", "--out", folder, "-q", *words], cwd=root,
                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, check=False)
             known = [wanted, str(done.returncode)]
             verdict.write_text("\n".join(known), encoding="utf-8")

@@ -142,7 +142,7 @@ Forecast RankFactor::analyse(const fs::path& on_disk) {
   const double start = MPI_Wtime();
   const auto option = [this](int number) -> MUMPS_INT& { return mumps_.icntl[number - 1]; };
   for (const int output : {1, 2, 3, 4}) option(output) = 0;
-  option(7) = 1;   // the order is given
+  option(7) = 1;  // the order is given
   option(14) = spare_percent;
   option(18) = 3;  // each rank has entries of its own
   option(28) = 1;  // the first rank analyses
@@ -153,7 +153,8 @@ Forecast RankFactor::analyse(const fs::path& on_disk) {
   std::strncpy(mumps_.ooc_tmpdir, on_disk.c_str(), sizeof mumps_.ooc_tmpdir - 1);
   call(analysis);
   Forecast forecast;
-  const double bytes = 1e6 * mumps_.info[on_disk.empty() ? 14 : 16] / (1.0 + 0.01 * spare_percent);  // the spare space is never touched
+  const double bytes =
+      1e6 * mumps_.info[on_disk.empty() ? 14 : 16] / (1.0 + 0.01 * spare_percent);  // the spare space is never touched
   compare_machines(bytes, forecast);
   forecast.least_bytes = reduced(core::held_memory_bytes() + bytes, MPI_MIN);
   forecast.most_bytes = reduced(core::held_memory_bytes() + bytes, MPI_MAX);

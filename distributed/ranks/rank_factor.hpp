@@ -14,10 +14,11 @@ namespace thinwall::distributed {
 struct Forecast {
   double machine_bytes = 0.0;  ///< beside what is held now, on the machine whose memory is used most
   double free_bytes = 0.0;     ///< there
-  double least_bytes = 0.0, most_bytes = 0.0;  ///< peak of a rank: what it holds now and MUMPS' INFO(15), on disk INFO(17)
-  double seconds = 0.0;                        ///< of the numeric phase
-  double entries = 0.0;                        ///< of the factor, INFOG(20)
-  double flops = 0.0;                          ///< RINFOG(1)
+  double least_bytes = 0.0,
+         most_bytes = 0.0;  ///< peak of a rank: what it holds now and MUMPS' INFO(15), on disk INFO(17)
+  double seconds = 0.0;     ///< of the numeric phase
+  double entries = 0.0;     ///< of the factor, INFOG(20)
+  double flops = 0.0;       ///< RINFOG(1)
   double analysis_s = 0.0;
 };
 
@@ -41,7 +42,8 @@ class RankFactor {
   RankFactor(const RankFactor&) = delete;
   RankFactor& operator=(const RankFactor&) = delete;
 
-  /// Counts the factor, which goes to files in the folder `on_disk`, or stays in memory if it is empty. Throws NumericalError with MUMPS' code if the analysis fails.
+  /// Counts the factor, which goes to files in the folder `on_disk`, or stays in memory if it is empty. Throws
+  /// NumericalError with MUMPS' code if the analysis fails.
   [[nodiscard]] Forecast analyse(const std::filesystem::path& on_disk);
   /// The numeric phase.
   [[nodiscard]] Outcome factorise();

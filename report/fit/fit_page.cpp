@@ -128,6 +128,7 @@ json diagram_of(const std::vector<identification::OrderPoles>& orders) {
 json mac_of(const std::vector<identification::FittedMode>& modes) {
   const Eigen::MatrixXd mac = mac_of_residues(modes);
   std::vector<double> hz;
+  hz.reserve(modes.size());
   for (const identification::FittedMode& mode : modes) hz.push_back(mode.frequency_hz);
   std::vector<float> values;
   for (const double value : mac.reshaped()) values.push_back(for_picture(value));  // symmetric

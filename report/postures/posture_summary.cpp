@@ -63,6 +63,7 @@ std::vector<FollowedModeSummary> followed_modes(const study::PostureStudy& study
       modes[label].numbers.push_back(number_errors(study, held_out, t));
   }
   std::vector<FollowedModeSummary> result;
+  result.reserve(modes.size());
   for (auto& [label, mode] : modes) result.push_back(std::move(mode));
   return result;
 }
@@ -86,6 +87,7 @@ std::optional<DepthErrorSummary> depth_errors(const study::PostureStudy& study) 
 
 std::vector<LearningPointSummary> points_of(const std::vector<posture::LearningPoint>& curve) {
   std::vector<LearningPointSummary> points;
+  points.reserve(curve.size());
   for (const posture::LearningPoint& at : curve) points.push_back({at.postures, at.frequency_error, at.depth_error});
   return points;
 }

@@ -24,6 +24,7 @@ using study::PointSimulation;
 template <typename Of>
 io::Column column(const std::vector<PointSimulation>& points, const std::string& name, const Of& of) {
   std::vector<double> values;
+  values.reserve(points.size());
   for (const PointSimulation& point : points) values.push_back(of(point));
   return {name, values};
 }
@@ -112,6 +113,7 @@ io::Table table_of(const std::vector<milling::ToothPass>& passes) {
   io::Table table;
   const auto add = [&](const char* name, const auto& of) {
     std::vector<double> values;
+    values.reserve(passes.size());
     for (const milling::ToothPass& pass : passes) values.push_back(of(pass));
     table.push_back({name, values});
   };

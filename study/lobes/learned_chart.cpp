@@ -67,10 +67,12 @@ std::vector<LimitsAtSpeed> limits_of_draws(const setup::LobesOptions& lobes, con
 /// The speed at which each draw removes most.
 std::vector<std::optional<double>> best_speeds(const std::vector<LimitsAtSpeed>& limits) {
   std::vector<double> speeds;
+  speeds.reserve(limits.size());
   for (const LimitsAtSpeed& at : limits) speeds.push_back(at.spindle_speed_rpm);
   std::vector<std::optional<double>> best;
   for (std::size_t draw = 0; draw < limits.front().of_draws.size(); ++draw) {
     std::vector<std::optional<double>> of_draw;
+    of_draw.reserve(limits.size());
     for (const LimitsAtSpeed& at : limits) of_draw.push_back(at.of_draws[draw]);
     best.push_back(learning::best_speed_rpm(speeds, of_draw));
   }

@@ -142,7 +142,7 @@ std::ostream& operator<<(std::ostream& out, const Trials& trials) {
 }
 
 TEST(JointIdentification, WithNoiseTheTruthLiesInTheIntervalAsOftenAsItSays) {
-  const auto axis = dynamics::linear_axis(20.0, 1200.0, 200);
+  const auto axis = dynamics::linear_axis(20.0, 1200.0, 100);
   for (const double K : {1e5, 1e6, 1e7}) {
     const double C = 5e-5 * K;
     const Experiment e(spring(K, C, 0.0), axis, 5);

@@ -18,7 +18,8 @@ remark before a block says what becomes of it:
     <!-- add to: wall/case.toml -->         is written to the end of it
     <!-- not run: why -->                   commands that are not run, with the reason
 
-A run of a shipped case begins with what an equal run of another test has kept, so that a page waits for it once at most.
+A run or a simulation of a shipped case begins with what a run of another test with equal settings has kept, so that a
+page waits for it once at most.
 A block of commands without one of these is a failure. Every other block that is TOML must name keys that docs/case-file.md
 has. A command ends before three blanks or " # ", where its explanation begins.
 """
@@ -225,8 +226,8 @@ class Runner:
         return output
 
     def bring_kept_results(self, command, folder):
-        """Copies the results of an equal run to where this command would write, if there are none yet."""
-        if not re.match(r"(\./)?thinwall run cases/[\w-]+( |$)", command):
+        """Copies the results of a run with equal settings to where this command would write, if there are none yet."""
+        if not re.match(r"(\./)?thinwall (run|simulate) cases/[\w-]+( |$)", command):
             return
         words = shlex.split(command)
         case = words[2].removeprefix("cases/")

@@ -50,14 +50,15 @@ def test_lobes_from_frf():
     assert number(r"peak at ([\d.]+) Hz", text) == pytest.approx(600.0, rel=1e-3)
 
 
-COARSE = {  # what makes a case quick, if no page of the docs shows it anyway
+# What makes a case quick. Where these are the settings that a page of the docs adds, in its order, one run serves both.
+COARSE = {
     "barrios-2019-measured": ("part.mesh.tolerance=0.05",),
     "cantilever-wall": ("part.mesh.tolerance=0.05", "lobes.count=10"),
-    "huynh-2017": ("lobes.count=3", "simulation.settling_turns=20"),
-    "huynh-2017-support": ("part.mesh.tolerance=0.05", "path.positions=3", "lobes.count=3"),
+    "huynh-2017": ("lobes.count=5",),
+    "huynh-2017-support": ("lobes.count=3",),
     "irb6660-measured": ("part.mesh.tolerance=0.05", "lobes.count=3"),
     "posture-map": ("lobes.count=20",),
-    "pocketed-rib": ("part.mesh.tolerance=0.1", "reduction.tolerance=0.1", "lobes.count=10"),
+    "pocketed-rib": ("part.mesh.tolerance=0.1", "lobes.count=10"),
 }
 
 
@@ -172,7 +173,7 @@ def test_huynh_2017_support(run_case):
     text = example(run_case, "huynh-2017-support")
     assert equal_to_the_program(text)
     stiffness = [float(value) for value in re.findall(r"([\d.]+) N/um along x", text)]
-    assert len(stiffness) == 3 and stiffness[0] == stiffness[2] < stiffness[1]  # turned to either side by one angle
+    assert stiffness == stiffness[::-1] and stiffness[0] < stiffness[len(stiffness) // 2]  # turned to either side by one angle
     depth = r" +the whole path allows ([\d.]+) mm"
     assert number("supported" + depth, text) > number("part" + depth, text)
 

@@ -42,6 +42,7 @@ fs::path scratch(const std::string& name) {
 pid_t start(const std::vector<std::string>& words, const fs::path& output) {
   const pid_t pid = fork();
   if (pid != 0) return pid;
+  std::signal(SIGINT, SIG_DFL);  // which is ignored in all that a shell has put in the background
   std::vector<char*> argv{const_cast<char*>(program.c_str())};
   for (const auto& word : words) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
