@@ -1,6 +1,5 @@
 #include "app/forecast.hpp"
 
-#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -105,16 +104,6 @@ std::string text(const Forecast& forecast) {
   return told > 1 ? line + list : line;
 }
 
-std::string quicker_way(const cases::Case& source, const Forecast& forecast) {
-  constexpr double long_s = 30.0, worth_while = 1.5;
-  if (!source.tool || source.tool->measured.empty() || !setup::known_by_lines(*source.tool)) return "";
-  if (!forecast.lobes || forecast.lobes_s() < long_s || forecast.lobes->longer_by_lines < worth_while) return "";
-  return fmt::format(
-      "tool.fit = true fits modes to the tool's lines once and takes the chart from them, which is about {:.0f} times "
-      "as quick",
-      forecast.lobes->longer_by_lines);
-}
-
 std::shared_ptr<const fem::FirstMesh> tell_of_long_run(const cases::Case& source,
                                                        const std::vector<milling::OperatingPoint>& points) {
   constexpr double long_s = 10.0;
@@ -122,7 +111,6 @@ std::shared_ptr<const fem::FirstMesh> tell_of_long_run(const cases::Case& source
   if (!time) return {};
   throw_refusal(*time);
   if (time->at_least() || time->whole_s() >= long_s) spdlog::info("{}", text(*time));
-  if (const std::string way = quicker_way(source, *time); !way.empty()) spdlog::info("{}", way);
   return time->first_mesh;
 }
 

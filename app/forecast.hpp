@@ -48,15 +48,10 @@ struct Forecast {
 /// A line that says the whole time and what it consists of.
 [[nodiscard]] std::string text(const Forecast& forecast);
 
-/// A line that names the quick way to a chart of half a minute or more from the lines of a measured tool, which is
-/// their modes, and how much quicker it is; "" where there is none.
-[[nodiscard]] std::string quicker_way(const cases::Case& source, const Forecast& forecast);
-
-/// Logs the forecast's line, and that of the quicker way, for a case that takes ten seconds or longer, or of which only
-/// the least is known: rows that take too long to be timed, a tolerance that is not met. What cannot be foreseen is an
-/// error of the run, which tells it where it is met. Returns the first mesh of the part for the run, if there is one.
-/// Throws Interrupted, and InputError for lines that do not reach, at the `points` of which the charts are asked too.
-/// Cost: as forecast().
+/// Logs that line for a case that takes ten seconds or longer, or of which only the least is known: rows that take too
+/// long to be timed, a tolerance that is not met. What cannot be foreseen is an error of the run, which tells it where
+/// it is met. Returns the first mesh of the part for the run, if there is one. Throws Interrupted, and InputError for
+/// lines that do not reach, at the `points` of which the charts are asked too. Cost: as forecast().
 std::shared_ptr<const fem::FirstMesh> tell_of_long_run(const cases::Case& source,
                                                        const std::vector<milling::OperatingPoint>& points = {});
 

@@ -110,20 +110,8 @@ std::string refusal_of_lines(const setup::Setup& source, const std::vector<milli
 
 using StructureLike = StandIn (*)(const setup::Setup&, const milling::ToolFrame&);
 
-/// How many times as long a row from lines takes as one from the poles of their fit alone, at the highest speed.
-double longer_by_lines(const milling::FittedStructure& structure, const milling::MillingProcess& process, double rpm,
-                       const milling::StabilityOptions& options) {
-  const Took by_poles = time_of([&] { (void)milling::limiting_depth(structure.all.poles, process, rpm, options); });
-  const Took by_lines = time_of([&] { (void)milling::limiting_depth(structure, process, rpm, options); });
-  return by_poles.over || by_poles.seconds <= 0.0 ? 1.0 : by_lines.seconds / by_poles.seconds;
-}
-
 /// The time of so many rows of a structure, on all threads, and of making it; over: at least so much.
-struct ChartTime : Took {
-  double longer_by_lines = 1.0;
-};
-
-ChartTime time_of_charts(const setup::Setup& source, StructureLike like, double rows, double limit_s) {
+Took time_of_charts(const setup::Setup& source, StructureLike like, double rows, double limit_s) {
   if (rows == 0.0) return {};
   const setup::LobesOptions& lobes = *source.lobes;
   const milling::MillingProcess process = setup::milling_process(source);
@@ -131,7 +119,7 @@ ChartTime time_of_charts(const setup::Setup& source, StructureLike like, double 
   const core::TimeLimit limit(limit_s);
   std::optional<StandIn> made;
   const Took making = time_of([&] { made = like(source, process.frame); });
-  if (making.over) return {making};
+  if (making.over) return making;
   const auto row = [&](double rpm) {
     if (const auto* sampled = std::get_if<milling::FittedStructure>(&made->structure)) {
       (void)milling::limiting_depth(*sampled, process, rpm, options.stability);
@@ -141,11 +129,7 @@ ChartTime time_of_charts(const setup::Setup& source, StructureLike like, double 
     }
   };
   const Took of_row = mean_row(row, lobes.from_rpm, lobes.to_rpm);
-  ChartTime time{{made->longer * making.seconds + rows * of_row.seconds / core::thread_count(), of_row.over}};
-  const auto* sampled = std::get_if<milling::FittedStructure>(&made->structure);
-  if (sampled != nullptr && !of_row.over)
-    time.longer_by_lines = longer_by_lines(*sampled, process, lobes.to_rpm, options.stability);
-  return time;
+  return {made->longer * making.seconds + rows * of_row.seconds / core::thread_count(), of_row.over};
 }
 
 /// The rows of a robust chart: those at the speeds and at their neighbours, and what is changed at each of them.
@@ -179,13 +163,12 @@ std::optional<LobesForecast> forecast_lobes(const setup::Setup& source, double l
   if (!source.lobes || !source.cutting || !source.tool) return std::nullopt;
   const core::Silence forecast_only;
   try {
-    LobesForecast result{expected_rows(source), 0.0, false, 1.0, refusal_of_lines(source, points)};
+    LobesForecast result{expected_rows(source), 0.0, false, refusal_of_lines(source, points)};
     if (!result.refusal.empty()) return result;
-    const ChartTime of_poles = time_of_charts(source, structure_like, result.rows.of_structure, limit_s);
-    const ChartTime of_lines = time_of_charts(source, lines_like, result.rows.of_lines, limit_s);
+    const Took of_poles = time_of_charts(source, structure_like, result.rows.of_structure, limit_s);
+    const Took of_lines = time_of_charts(source, lines_like, result.rows.of_lines, limit_s);
     result.seconds = of_poles.seconds + of_lines.seconds;
     result.at_least = of_poles.over || of_lines.over;
-    result.longer_by_lines = of_poles.longer_by_lines;
     return result;
   } catch (const core::Interrupted&) {
     throw;

@@ -21,9 +21,8 @@ struct ExpectedRows {
 struct LobesForecast {
   ExpectedRows rows;
   double seconds = 0.0;
-  bool at_least = false;         ///< a row was given up: all of them take as long or longer
-  double longer_by_lines = 1.0;  ///< a row from a tool's lines beside one from the modes that are fitted to them
-  std::string refusal = {};      ///< milling::require_range()'s, of the tool's lines; empty: none
+  bool at_least = false;     ///< a row was given up: all of them take as long or longer
+  std::string refusal = {};  ///< milling::require_range()'s, of the tool's lines; empty: none
 };
 
 /// The rows of all charts: with and without the robot, along a path, of methods to compare with, of a map, and those
