@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <list>
 #include <optional>
 #include <string>
 
@@ -46,15 +47,15 @@ struct Work {
   Mesh::Property_map<Face, int> patch;
   Mesh::Property_map<Edge, int> line;  // −1: not sharp
   Mesh::Property_map<Vertex, bool> is_corner;
-  Mesh::Property_map<Vertex, std::vector<Place>> places;
-  std::size_t most_vertices = 500000;  // models of a tenth of that are too large to be solved
+  Mesh::Property_map<Vertex, std::list<Place>> places;  // a place stays where it is while others are added
+  std::size_t most_vertices = 500000;                   // models of a tenth of that are too large to be solved
 
   explicit Work(const SizeSpace& size_space)
       : space(size_space),
         patch(mesh.add_property_map<Face, int>("f:patch", -1).first),
         line(mesh.add_property_map<Edge, int>("e:line", -1).first),
         is_corner(mesh.add_property_map<Vertex, bool>("v:corner", false).first),
-        places(mesh.add_property_map<Vertex, std::vector<Place>>("v:places").first) {}
+        places(mesh.add_property_map<Vertex, std::list<Place>>("v:places").first) {}
 };
 
 /// The place of x on a patch.
@@ -64,8 +65,7 @@ Place make_place(const SizeSpace& space, int patch, const Eigen::Vector3d& x) {
   return place;
 }
 
-/// The place of a vertex on a patch, which is kept until the vertex moves; valid until another patch of it is asked
-/// for.
+/// The place of a vertex on a patch, which is kept, and the reference valid, until the vertex moves.
 const Place& place_of(Work& work, Vertex v, int patch) {
   auto& known = work.places[v];
   for (const Place& place : known)
