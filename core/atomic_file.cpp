@@ -133,7 +133,8 @@ bool is_partial_name_of(const std::filesystem::path& path, const std::filesystem
   const std::string beginning = "." + target.stem().string() + std::string(partial_mark);
   if (!name.starts_with(beginning) || !name.ends_with(end) || name.size() < beginning.size() + end.size()) return false;
   const std::string numbers = name.substr(beginning.size(), name.size() - beginning.size() - end.size());
-  return numbers.find_first_not_of("0123456789-") == std::string::npos;
+  const bool has_process = numbers.find_first_of("0123456789") == 0;
+  return has_process && numbers.find_first_not_of("0123456789-") == std::string::npos;
 }
 
 void write_file_atomically(const std::filesystem::path& path, std::string_view content) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <list>
 #include <optional>
 #include <string>
 
@@ -46,15 +47,15 @@ struct Work {
   Mesh::Property_map<Face, int> patch;
   Mesh::Property_map<Edge, int> line;  // −1: not sharp
   Mesh::Property_map<Vertex, bool> is_corner;
-  Mesh::Property_map<Vertex, std::vector<Place>> places;
-  std::size_t most_vertices = 500000;  // models of a tenth of that are too large to be solved
+  Mesh::Property_map<Vertex, std::list<Place>> places;  // a place stays where it is while others are added
+  std::size_t most_vertices = 500000;                   // models of a tenth of that are too large to be solved
 
   explicit Work(const SizeSpace& size_space)
       : space(size_space),
         patch(mesh.add_property_map<Face, int>("f:patch", -1).first),
         line(mesh.add_property_map<Edge, int>("e:line", -1).first),
         is_corner(mesh.add_property_map<Vertex, bool>("v:corner", false).first),
-        places(mesh.add_property_map<Vertex, std::vector<Place>>("v:places").first) {}
+        places(mesh.add_property_map<Vertex, std::list<Place>>("v:places").first) {}
 };
 
 /// The place of x on a patch.
@@ -64,8 +65,7 @@ Place make_place(const SizeSpace& space, int patch, const Eigen::Vector3d& x) {
   return place;
 }
 
-/// The place of a vertex on a patch, which is kept until the vertex moves; valid until another patch of it is asked
-/// for.
+/// The place of a vertex on a patch, which is kept, and the reference valid, until the vertex moves.
 const Place& place_of(Work& work, Vertex v, int patch) {
   auto& known = work.places[v];
   for (const Place& place : known)
@@ -140,7 +140,10 @@ std::vector<Half> sharp_halfedges(const Work& work, Vertex v) {
 /// All edges with their lengths, ascending.
 std::vector<std::pair<double, Edge>> measured_edges(Work& work) {
   std::vector<std::pair<double, Edge>> result;
-  for (const Edge e : work.mesh.edges()) result.emplace_back(longest(work, e).first, e);
+  for (const Edge e : work.mesh.edges()) {
+    core::check_interrupt();
+    result.emplace_back(longest(work, e).first, e);
+  }
   std::sort(result.begin(), result.end());
   return result;
 }
@@ -261,6 +264,7 @@ int collapse_short_edges(Work& work) {
   int collapses = 0;
   for (const auto& [measured, e] : measured_edges(work)) {
     if (measured >= too_short) break;
+    core::check_interrupt();
     if (work.mesh.is_removed(e) || longest(work, e).first >= too_short) continue;
     const Half h = work.mesh.halfedge(e);
     for (const Half direction : {h, work.mesh.opposite(h)}) {
@@ -371,6 +375,7 @@ std::vector<Eigen::Vector3d> candidates(const Work& work, Vertex v) {
 void move_vertices(Work& work) {
   for (const Vertex v : work.mesh.vertices()) {
     if (work.is_corner[v]) continue;
+    core::check_interrupt();
     const Eigen::Vector3d before = work.mesh.point(v);
     double best = worst_around(work, v, before, -1.0).value_or(0.0) + better;
     Eigen::Vector3d where = before;
@@ -421,7 +426,10 @@ void load(Work& work, const TriangleSurface& surface, const SurfaceFeatures& fea
 /// The remeshed surface.
 Remeshed unload(Work& work) {
   Remeshed result;
-  for (const Edge e : work.mesh.edges()) result.longest_edge = std::max(result.longest_edge, longest(work, e).first);
+  for (const Edge e : work.mesh.edges()) {
+    core::check_interrupt();
+    result.longest_edge = std::max(result.longest_edge, longest(work, e).first);
+  }
   work.mesh.collect_garbage();
   for (const Vertex v : work.mesh.vertices()) result.surface.vertices.push_back(work.mesh.point(v));
   for (const Face f : work.mesh.faces()) {

@@ -33,12 +33,28 @@ Pocket deepest_cut(const LobeRow& row, const MachineLimits& machine, const std::
   return cut;
 }
 
-/// The speed from cut i towards `step` up to which `least_m` of depth can be cut.
-double end_of_depth(const std::vector<Pocket>& cuts, std::size_t i, int step, double least_m) {
+/// True if the row's depth is known to a tenth or better: it is an answer, or its estimate at the largest number of
+/// nodes says so.
+bool is_known(const LobeRow& row) {
+  constexpr double known_to = 0.1;
+  return answers(row.status) || (row.status == StabilityStatus::node_limit_reached && row.error_estimate <= known_to);
+}
+
+/// The nearest row to row i towards `step` that is known; the number of rows where there is none.
+std::size_t neighbour(const std::vector<LobeRow>& rows, std::size_t i, int step) {
+  auto j = static_cast<std::ptrdiff_t>(i) + step;
+  while (j >= 0 && j < std::ssize(rows) && !is_known(rows[static_cast<std::size_t>(j)])) j += step;
+  return j < 0 ? rows.size() : static_cast<std::size_t>(j);
+}
+
+/// The speed from cut i towards `step` up to which `least_m` of depth can be cut; not beyond a row that is not known.
+double end_of_depth(const std::vector<LobeRow>& rows, const std::vector<Pocket>& cuts, std::size_t i, int step,
+                    double least_m) {
   double end = cuts[i].spindle_speed_rpm;
   for (auto j = static_cast<std::ptrdiff_t>(i) + step; j >= 0 && j < std::ssize(cuts); j += step) {
     const Pocket& next = cuts[static_cast<std::size_t>(j)];
     const Pocket& before = cuts[static_cast<std::size_t>(j - step)];
+    if (!is_known(rows[static_cast<std::size_t>(j)])) break;
     if (next.depth_m < least_m) {
       const double share = (before.depth_m - least_m) / (before.depth_m - next.depth_m);
       return before.spindle_speed_rpm + share * (next.spindle_speed_rpm - before.spindle_speed_rpm);
@@ -90,24 +106,25 @@ std::vector<Pocket> best_pockets(const std::vector<LobeRow>& rows, const Machine
   };
   std::vector<Pocket> tops;
   for (std::size_t i = 0; i < cuts.size(); ++i) {
-    if (!reached(cuts[i])) continue;
+    if (!is_known(rows[i]) || !reached(cuts[i])) continue;
     // Neighbours beyond the machine's speeds do not compete, but tell that speed is what bounds this one.
     const auto beaten_by = [&](std::size_t j, double by) {
       return j < cuts.size() && rate(cuts[j]) > rate(cuts[i]) * by;
     };
-    const std::size_t before = i == 0 ? cuts.size() : i - 1;
+    const std::size_t before = neighbour(rows, i, -1), after = neighbour(rows, i, 1);
     const bool within_before = before < cuts.size() && reached(cuts[before]);
-    const bool within_after = i + 1 < cuts.size() && reached(cuts[i + 1]);
+    const bool within_after = after < cuts.size() && reached(cuts[after]);
     if (within_before && !(rate(cuts[i]) > rate(cuts[before]) * same)) continue;
-    if (within_after && beaten_by(i + 1, same)) continue;
+    if (within_after && beaten_by(after, same)) continue;
     Pocket top = cuts[i];
-    if (!within_after && beaten_by(i + 1, same))
+    if (!within_after && beaten_by(after, same))
       top.limited_by = fastest < machine.max_spindle_speed_rpm ? PocketLimit::feed_rate : PocketLimit::spindle_speed;
     if (!within_before && beaten_by(before, same)) top.limited_by = PocketLimit::spindle_speed;
-    top.from_rpm = std::max(machine.min_spindle_speed_rpm, end_of_depth(cuts, i, -1, share_of_depth * top.depth_m));
-    top.to_rpm =
-        std::min({fastest, machine.max_spindle_speed_rpm, end_of_depth(cuts, i, 1, share_of_depth * top.depth_m)});
-    top.at_chart_edge = i == 0 || i + 1 == cuts.size();
+    top.from_rpm =
+        std::max(machine.min_spindle_speed_rpm, end_of_depth(rows, cuts, i, -1, share_of_depth * top.depth_m));
+    top.to_rpm = std::min(
+        {fastest, machine.max_spindle_speed_rpm, end_of_depth(rows, cuts, i, 1, share_of_depth * top.depth_m)});
+    top.at_chart_edge = before == cuts.size() || after == cuts.size();
     tops.push_back(top);
   }
   std::stable_sort(tops.begin(), tops.end(), is_better);

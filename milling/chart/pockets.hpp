@@ -38,7 +38,9 @@ struct Pocket {
 };
 
 /// The best `most` pockets: the deepest first, of two as deep the one of the higher speed; those at an edge of the
-/// chart, which may be no pockets, come last. `rows` by rising speed. Cost O(rows log rows).
+/// chart, which may be no pockets, come last. A row that is no answer (answers()) is no pocket, nor does it hide one
+/// beside it, and no pocket reaches over it, but for a row whose nodes ran out at an estimate of a tenth at most.
+/// `rows` by rising speed. Cost O(rows log rows).
 [[nodiscard]] std::vector<Pocket> best_pockets(const std::vector<LobeRow>& rows, std::size_t most);
 
 /// The best pockets within the machine's speeds, with every depth cut to what power and torque allow under `load`,

@@ -55,14 +55,17 @@ struct FittedStructure {
 ///  - the change by the remainder itself where the shape of the cut changes with the depth, because the grid is then
 ///    that of the depth before.
 ///
-/// A row that misses the tolerance for it is `data_limited`, beyond a tenth of the depth `data_insufficient`. A row
-/// that is stable up to the depth limit has the change of |μ| there in its estimate. Where the remainder is more than a
-/// tenth of the lines, as of a fit that missed modes, CriticalDepths looks for a crossing of poles and remainder below
-/// the row's limit; one that is found is the limit, with an estimate of 1. Any cutter will do. Throws
-/// InputError for a bad process, option or speed, and as require_range(); NumericalError if an eigen-solution fails.
-/// Cost: a row from poles, and for each crossing some ten sums over the harmonics within the lines, each O(harmonics
-/// contacts²), of which all but the first few fall away where nothing remains of the lines, and the receptance of ten
-/// fits at the harmonics.
+/// It grows by the distance to another crossing that the lines leave open, as beside the nose of a flip lobe
+/// (widen_for_near_crossings() of near_crossing.hpp). A row that misses the tolerance for all this is `data_limited`,
+/// beyond a tenth of the depth `data_insufficient`. A row that is stable up to the depth limit has the change of |μ|
+/// there in its estimate, and is `data_insufficient` if by that, or by a crossing left open, it may not be. Where the
+/// remainder is more than a tenth of the lines, as of a fit that missed modes, CriticalDepths looks for a crossing of
+/// poles and remainder below the row's limit; one that is found is the limit, with an estimate of 1. Any cutter will
+/// do. Throws InputError for a bad process, option or speed, and as require_range(); NumericalError if an
+/// eigen-solution fails. Cost: a row from poles, and for each crossing some ten sums over the harmonics within the
+/// lines, each O(harmonics contacts²), of which all but the first few fall away where nothing remains of the lines, and
+/// the receptance of ten fits at the harmonics; once a row that of widen_for_near_crossings(), which searches the
+/// depths up to the limit again.
 [[nodiscard]] LobeRow limiting_depth(const FittedStructure& structure, const MillingProcess& process,
                                      double spindle_speed_rpm, const StabilityOptions& options);
 

@@ -45,8 +45,8 @@ class CriticalDepths {
   };
 
   /// The eigenvalues with 1/Re ν < depth_m, and |Im ν| of at most that share of Re ν, at all angles that up_to() has
-  /// looked at so far. A path that nearly touches the axis is looked at in steps no longer than
-  /// its distance from it, so that none is overlooked. Cost: that of reading them.
+  /// looked at so far. Between two of these a path may come nearer: steps are halved only where one could cross the
+  /// axis. Cost: that of reading them.
   [[nodiscard]] std::vector<NearAxis> near_axis(double depth_m, double share) const;
 
  private:

@@ -84,6 +84,8 @@ TEST_F(AtomicFile, APartialNameIsThatOfItsTargetOnly) {
   EXPECT_FALSE(is_partial_name_of(partial_path(folder / "out"), folder / "out.1"));
   EXPECT_FALSE(is_partial_name_of(partial_path(folder / "out.1"), folder / "out"));
   EXPECT_FALSE(is_partial_name_of(folder / ".out.partial-1-0.txt", folder / "out"));
+  for (const char* without_process : {".out.partial-", ".out.partial--", ".out.partial--1-0"})
+    EXPECT_FALSE(is_partial_name_of(folder / without_process, folder / "out")) << without_process;
 }
 
 TEST_F(AtomicFile, RefusesWhatIsNotAPlainFileOrHasNoFolder) {

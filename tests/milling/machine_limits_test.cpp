@@ -168,6 +168,27 @@ TEST(PocketsOfAMachine, OfAnEdgeOfTheChartComeLast) {
   EXPECT_NEAR(pockets[0].to_rpm, 6000.0 + 500.0 * 0.8 / 4.0, 1e-9);
 }
 
+/// Beside the nose of a flip lobe the deepest row may be one that the lines leave open.
+TEST(PocketsOfAMachine, ARowThatIsNoAnswerIsNoneAndHidesNone) {
+  std::vector<LobeRow> rows = chart({{4000, 2e-3}, {4500, 6e-3}, {5000, 8e-3}, {5500, 5.9e-3}, {6000, 2e-3}});
+  ASSERT_EQ(best_pockets(rows, {}, {}, 5).front().spindle_speed_rpm, 5000.0);
+  for (const auto status : {StabilityStatus::data_insufficient, StabilityStatus::crossing_missed}) {
+    rows[2].status = status;
+    const auto pockets = best_pockets(rows, {}, {}, 5);
+    ASSERT_EQ(pockets.size(), 1u) << name(status);
+    EXPECT_EQ(pockets[0].spindle_speed_rpm, 5500.0) << "of the two rows beside it that by which more is removed";
+    EXPECT_EQ(pockets[0].from_rpm, 5500.0) << "what can be cut at 5000 rpm is not known";
+  }
+  for (const auto status : {StabilityStatus::data_limited, StabilityStatus::node_limit_reached}) {
+    rows[2].status = status;
+    EXPECT_EQ(best_pockets(rows, {}, {}, 5).front().spindle_speed_rpm, 5000.0) << "its error is said: " << name(status);
+  }
+  rows[2].error_estimate = 0.2;
+  EXPECT_EQ(best_pockets(rows, {}, {}, 5).front().spindle_speed_rpm, 5500.0) << "the nodes left a fifth open";
+  for (LobeRow& row : rows) row.status = StabilityStatus::data_insufficient;
+  EXPECT_TRUE(best_pockets(rows, {}, {}, 5).empty());
+}
+
 TEST(PocketsOfAMachine, TorqueCutsDepthAndPowerMakesAPlateau) {
   const CutLoad load = cut_load(cut(5e-3, MillingDirection::down), feed);
   MachineLimits machine;
