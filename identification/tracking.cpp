@@ -186,13 +186,22 @@ Eigen::MatrixXd costs_of_names(const std::vector<Modes>& postures, std::size_t a
   return sum;
 }
 
+/// Makes a neighbour of each posture that has it as one.
+void make_mutual(Neighbours& neighbours) {
+  const Neighbours heard = neighbours;
+  for (std::size_t i = 0; i < heard.size(); ++i) {
+    for (const std::size_t k : heard[i]) {
+      if (std::ranges::find(neighbours[k], i) == neighbours[k].end()) neighbours[k].push_back(i);
+    }
+  }
+}
+
 /// Exchanges the names of a posture's modes where that agrees better with all of its neighbours (iterated conditional
-/// modes, Besag 1986), of which a tree hears one only. The sum of the costs over all pairs of neighbours falls with
-/// each exchange.
+/// modes, Besag 1986), of which a tree hears one only. Neighbours must be mutual: then the sum of the costs over all
+/// pairs of them falls with each exchange, so that the exchanges end.
 void exchange_names(const std::vector<Modes>& postures, const Neighbours& neighbours, Tracking& tracking) {
-  constexpr int most_sweeps = 20;
   bool exchanged = true;
-  for (int sweep = 0; sweep < most_sweeps && exchanged; ++sweep) {
+  while (exchanged) {
     exchanged = false;
     for (std::size_t at = 0; at < postures.size(); ++at) {
       if (postures[at].empty()) continue;
@@ -202,7 +211,8 @@ void exchange_names(const std::vector<Modes>& postures, const Neighbours& neighb
       const std::vector<int> mode = cheapest_pairing(cost);
       double saved = cost.trace();
       for (std::size_t l = 0; l < names.size(); ++l) saved -= cost(static_cast<Eigen::Index>(l), mode[l]);
-      if (saved <= 1e-9) continue;
+      const bool falls = saved > 1e-9;  // false for NaN
+      if (!falls) continue;
       for (std::size_t l = 0; l < names.size(); ++l) labels[static_cast<std::size_t>(mode[l])] = names[l];
       exchanged = true;
     }
@@ -320,6 +330,7 @@ Tracking track(const std::vector<std::vector<FittedMode>>& of_postures,
   Neighbours near = alike;
   const Eigen::MatrixXd apart = places.size() > 0 ? distances(places) : Eigen::MatrixXd();
   if (places.size() > 0) add_nearest(apart, neighbours, near);
+  make_mutual(near);
   exchange_names(postures, near, tracking);
   number(postures, tracking);
   doubt(postures, alike, tracking);

@@ -26,14 +26,14 @@ struct Tracking {
 /// crossings because shapes change less between neighbours than the order of frequencies does. A mode of a label that
 /// the parent does not have is compared with the nearest ancestor that has it, so that a gap ends no label; one that is
 /// unlike all by more than 3 begins a new one. The tree hears one neighbour of each posture; then labels of a posture
-/// are exchanged where that lowers the cost against all of the `neighbours` postures that differ least, and of as many
-/// that lie nearest, until nothing changes (iterated conditional modes, Besag 1986). Where more of those that differ
-/// least contradict a label than agree with it, it is doubtful. Labels are numbered by the mean frequency of their
-/// modes. `turned`: the same modes in another frame, such as that of the tip, in which
-/// those of a spindle hardly change while those of an arm do; two modes are as unlike as in the frame in which they are
-/// less. `places`: a row a posture, whose columns count by their ranges. With them the modes are followed a second
-/// time, along the shortest tree that spans the places, and a name that is another one on this way is doubtful, too:
-/// around an exceptional point, where two modes are one, names depend on the way although every step is sure
+/// are exchanged where that lowers the cost against all of its neighbours: the `neighbours` postures that differ least,
+/// as many that lie nearest, and those that have it among theirs, until nothing changes (iterated conditional modes,
+/// Besag 1986). Where more of those that differ least contradict a label than agree with it, it is doubtful. Labels are
+/// numbered by the mean frequency of their modes. `turned`: the same modes in another frame, such as that of the tip,
+/// in which those of a spindle hardly change while those of an arm do; two modes are as unlike as in the frame in which
+/// they are less. `places`: a row a posture, whose columns count by their ranges. With them the modes are followed a
+/// second time, along the shortest tree that spans the places, and a name that is another one on this way is doubtful,
+/// too: around an exceptional point, where two modes are one, names depend on the way although every step is sure
 /// (docs/theory/postures.md). Throws InputError for no posture, modes without vectors, frames with another number of
 /// modes or another number of places. Cost O(postures² modes³).
 [[nodiscard]] Tracking track(const std::vector<std::vector<FittedMode>>& postures,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -47,18 +48,28 @@ BandEnvelope envelope_of_poles(const milling::RelativeStructure& structure, cons
 
 }  // namespace
 
-double widest_gap_hz(const std::vector<FittedMode>& modes) {
-  if (modes.size() < 2)
-    throw core::InputError("low and high modes of " + std::to_string(modes.size()) + ", must be at least 2");
-  std::vector<double> ln_hz;
-  ln_hz.reserve(modes.size());
-  for (const FittedMode& mode : modes) ln_hz.push_back(std::log(mode.frequency_hz));
-  std::ranges::sort(ln_hz);
-  std::size_t widest = 1;
-  for (std::size_t i = 1; i < ln_hz.size(); ++i) {
-    if (ln_hz[i] - ln_hz[i - 1] > ln_hz[widest] - ln_hz[widest - 1]) widest = i;
+std::vector<double> split_among_hz(const std::vector<FittedMode>& modes, const PostureCut& cut) {
+  std::vector<double> hz;
+  if (cut.structure_by) {
+    for (const std::complex<double>& pole : cut.structure_by(modes).poles) {
+      if (pole.imag() > 0.0) hz.push_back(std::abs(pole) / (2.0 * std::numbers::pi));
+    }
+  } else {
+    for (const FittedMode& mode : modes) hz.push_back(mode.frequency_hz);
   }
-  return std::exp(0.5 * (ln_hz[widest] + ln_hz[widest - 1]));
+  std::ranges::sort(hz);
+  return hz;
+}
+
+double widest_gap_hz(const std::vector<double>& ascending_hz) {
+  if (ascending_hz.size() < 2)
+    throw core::InputError("low and high modes of " + std::to_string(ascending_hz.size()) + ", must be at least 2");
+  std::size_t widest = 1;
+  const auto ratio = [&](std::size_t i) { return ascending_hz[i] / ascending_hz[i - 1]; };
+  for (std::size_t i = 1; i < ascending_hz.size(); ++i) {
+    if (ratio(i) > ratio(widest)) widest = i;
+  }
+  return std::sqrt(ascending_hz[widest] * ascending_hz[widest - 1]);
 }
 
 BandEnvelope band_envelope(const std::vector<FittedMode>& modes, const PostureCut& cut, double split_hz,

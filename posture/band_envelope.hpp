@@ -16,9 +16,14 @@ struct BandEnvelope {
   Eigen::VectorXd together;   ///< of all modes, which the envelope may lie above
 };
 
-/// The middle, in logarithms, of the widest gap between the frequencies of neighbouring modes: a robot's arm lies below
-/// it, its spindle above. Throws InputError for fewer than two modes.
-[[nodiscard]] double widest_gap_hz(const std::vector<identification::FittedMode>& modes);
+/// The frequencies |λ| of what an envelope splits, ascending, Hz: of the modes, or of the poles with Im λ > 0 of the
+/// structure that stands for them by cut.structure_by. Throws as that does.
+[[nodiscard]] std::vector<double> split_among_hz(const std::vector<identification::FittedMode>& modes,
+                                                 const PostureCut& cut);
+
+/// The middle, in logarithms, of the widest gap between neighbours of ascending frequencies: a robot's arm lies below
+/// it, its spindle above. Throws InputError for fewer than two.
+[[nodiscard]] double widest_gap_hz(const std::vector<double>& ascending_hz);
 
 /// Stability of the low and of the high modes separately and the lowest envelope of both, as Lei 2022, Fig. 29 has it,
 /// beside the stability of all modes together. The rest (m/N; empty: none) and what yields beside the robot

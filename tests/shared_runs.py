@@ -7,16 +7,27 @@ import shutil
 import subprocess
 
 
+def digest_of_cases(root):
+    """Of what a run can read below root/cases: the files of all cases, since one may read those of another."""
+    digest = hashlib.sha256()
+    for file in sorted((root / "cases").rglob("*")):
+        if file.is_file() and file.suffix != ".md":
+            digest.update(f"{file.relative_to(root)}\n{file.stat().st_size}\n".encode() + file.read_bytes())
+    return digest.hexdigest()
+
+
 def shared_run(program, root, case, settings=()):
     """The folder of results of `thinwall run cases/CASE --set SETTING …` below the build folder, to be read and copied only,
-    and the exit code of that run. Another test that asks at the same time waits; a program that was built anew runs again.
-    The case is named as the pages name it, from its repository's root: what is kept of files goes by their names, too."""
+    and the exit code of that run. Another test that asks at the same time waits; it runs again once the program was built anew
+    or a case was changed. The case is named as the pages name it, from its repository's root: what is kept of files goes by
+    their names, too."""
+    program = program.resolve()  # it runs in another folder
     built = program.stat()
     key = hashlib.sha256("\n".join([case, *settings]).encode()).hexdigest()[:12]
     place = program.parents[1] / "tests" / "runs" / f"{case}-{key}"
     place.mkdir(parents=True, exist_ok=True)
     folder, verdict = place / "results", place / "exit_code"
-    wanted = f"{built.st_mtime_ns} {built.st_size}"
+    wanted = f"{built.st_mtime_ns} {built.st_size} {digest_of_cases(root)}"
     with open(place / "lock", "w", encoding="utf-8") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         known = verdict.read_text(encoding="utf-8").split("\n") if verdict.is_file() else []

@@ -98,7 +98,7 @@ std::optional<posture::PostureCut> cut_of(const setup::Setup& source, const setu
 }
 
 /// The poles of the tip with the tool that is swapped in, by the robot's modes with the tool that was tapped: on the
-/// lines that those at robot.at have.
+/// lines that those at robot.at have. What a run says of the swap there is said here, too.
 void swap_tool(const setup::Setup& source, const setup::TabledRobot& robot, const posture::PosturePrediction& at,
                posture::PostureCut& cut) {
   const auto table_for_swap = [robot, swap = *source.tool->swap](const std::vector<identification::FittedMode>& modes) {
@@ -106,6 +106,7 @@ void swap_tool(const setup::Setup& source, const setup::TabledRobot& robot, cons
   };
   setup::CutSetup there = source;
   there.tool->swap->table = std::make_shared<const dynamics::ModalTable>(table_for_swap(posture::expected_modes(at)));
+  (void)cut_structure(there, cut.process.frame, nullptr);  // for its warnings
   cut.structure_by = [table_for_swap, tip = tip_of_modes(there)](const std::vector<identification::FittedMode>& modes) {
     return milling::fitted_poles(tip(table_for_swap(modes)).tip);
   };
@@ -154,13 +155,13 @@ void answer_map(const LearnedRobot& learned, const PostureQuestions& questions, 
 void answer_envelope(const posture::PosturePrediction& at, const PostureQuestions& questions, posture::PostureCut cut,
                      PostureStudy& study) {
   const auto modes = posture::expected_modes(at);
-  if (study.chart_rpm.empty() || modes.size() < 2) {
+  const std::vector<double> hz = posture::split_among_hz(modes, cut);
+  if (study.chart_rpm.empty() || hz.size() < 2) {
     study.notes.emplace_back("the envelope over low and high modes needs [lobes] and two modes");
     return;
   }
   cut.spindle_speeds_rpm = study.chart_rpm;
-  study.envelope =
-      posture::band_envelope(modes, cut, questions.split_hz.value_or(posture::widest_gap_hz(modes)), at.rest);
+  study.envelope = posture::band_envelope(modes, cut, questions.split_hz.value_or(posture::widest_gap_hz(hz)), at.rest);
 }
 
 void answer_next(const LearnedRobot& learned, const PostureQuestions& questions,

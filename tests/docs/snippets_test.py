@@ -226,8 +226,10 @@ class Runner:
         return output
 
     def bring_kept_results(self, command, folder):
-        """Copies the results of a run with equal settings to where this command would write, if there are none yet."""
-        if not re.match(r"(\./)?thinwall (run|simulate) cases/[\w-]+( |$)", command):
+        """Copies the results of a run with equal settings to where this command would write, if there are none yet; of
+        them a simulation needs what is kept for the next run only."""
+        begin = re.match(r"(\./)?thinwall (run|simulate) cases/[\w-]+( |$)", command)
+        if not begin:
             return
         words = shlex.split(command)
         case = words[2].removeprefix("cases/")
@@ -236,7 +238,8 @@ class Runner:
         if not out.exists():
             kept, code = shared_run(self.program, ROOT, case, settings)
             if code in (0, 6):
-                shutil.copytree(kept, out)
+                part = "cache" if begin[2] == "simulate" else "."
+                shutil.copytree(kept / part, out / part)
 
     def check_missed(self, block, named, output):
         """The expectations that do not hold are those that the remark names: any other one would go unnoticed."""

@@ -224,7 +224,7 @@ std::vector<identification::FittedMode> modes_at(const std::vector<std::pair<dou
 TEST(BandEnvelope, IsThatOfTheModesThatYield) {
   const PostureCut cut = slot_along_y({1100.0, 1400.0, 1700.0});
   const auto modes = modes_at({{50.0, 0.02}, {64.0, 0.01}, {900.0, 1e-6}});
-  const double split = widest_gap_hz(modes);
+  const double split = widest_gap_hz(split_among_hz(modes, cut));
   EXPECT_NEAR(split, std::sqrt(64.0 * 900.0), 1e-9);
   const BandEnvelope at = band_envelope(modes, cut, split);
   for (Eigen::Index i = 0; i < 3; ++i) {
@@ -232,7 +232,7 @@ TEST(BandEnvelope, IsThatOfTheModesThatYield) {
     EXPECT_EQ(at.lower(i), std::min(at.low(i), at.high(i)));
   }
   EXPECT_EQ(band_envelope(modes, cut, 1e4).high(0), std::numeric_limits<double>::infinity());
-  EXPECT_THROW((void)widest_gap_hz(modes_at({{50.0, 0.02}})), core::InputError);
+  EXPECT_THROW((void)widest_gap_hz({50.0}), core::InputError);
 }
 
 /// A tool beside the robot counts to the high modes: the low ones are as without it, and without a high mode the tool
@@ -259,6 +259,7 @@ TEST(BandEnvelope, SplitsThePolesOfAStructureThatStandsForTheModes) {
   PostureCut stood_for = cut;
   stood_for.structure_by = [&](const std::vector<identification::FittedMode>&) { return structure_of(modes, cut); };
   EXPECT_EQ(limiting_depths(others, stood_for), limiting_depths(modes, cut));
+  EXPECT_NEAR(widest_gap_hz(split_among_hz(others, stood_for)), std::sqrt(64.0 * 900.0), 1e-9);
   const BandEnvelope direct = band_envelope(modes, cut, 200.0), by_poles = band_envelope(others, stood_for, 200.0);
   EXPECT_EQ(by_poles.low, direct.low);
   EXPECT_EQ(by_poles.high, direct.high);

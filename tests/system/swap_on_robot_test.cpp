@@ -8,16 +8,21 @@
 #include <complex>
 #include <cstdio>
 #include <fstream>
+#include <functional>
+#include <numbers>
 
 #include "app/fit/fit_command.hpp"
 #include "core/atomic_file.hpp"
 #include "core/dense_eigenvalues.hpp"
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
+#include "core/messages.hpp"
 #include "milling/chart/sampled_stability.hpp"
+#include "milling/direct/fitted_receptance.hpp"
 #include "robot/modal_table.hpp"
 #include "setup/identified/identify.hpp"
 #include "setup/milling_process.hpp"
+#include "study/lobes/cut_structure.hpp"
 #include "study/lobes/drawn_structures.hpp"
 #include "study/lobes/lobes_stage.hpp"
 #include "study/lobes/tool_swap.hpp"
@@ -53,8 +58,8 @@ dynamics::SpatialModel low_modes(const dynamics::SpatialModel& all) {
 }
 
 /// Writes the modes of posture u with the reference tool up to `up_to_hz`, and unless told otherwise what they leave of
-/// the static compliance as modes at six times that frequency.
-void write_table(const fs::path& path, double u, double up_to_hz, bool with_rest = true) {
+/// the static compliance as modes at six times that frequency; `damping` times the damping ratios.
+void write_table(const fs::path& path, double u, double up_to_hz, bool with_rest = true, double damping = 1.0) {
   const dynamics::SpatialModel whole = assembled(u, reference());
   std::vector<int> rows;
   for (const char* name : {"1.x", "1.y", "1a.x", "1a.y"}) rows.push_back(dynamics::row_of(whole.dofs, name));
@@ -72,7 +77,7 @@ void write_table(const fs::path& path, double u, double up_to_hz, bool with_rest
     const Eigen::VectorXcd right = modes.right(rows, k), left = modes.left(rows, k) / modes.scaling(k);
     if (pole.imag() <= 0.0 || hz > up_to_hz || right.cwiseAbs().maxCoeff() < 1e-9 * largest) continue;
     rest += 2.0 * (right * left.transpose() / pole).real();
-    write_row(file, hz, -pole.real() / std::abs(pole), right, left);
+    write_row(file, hz, -damping * pole.real() / std::abs(pole), right, left);
   }
   if (!with_rest) return;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> statics(0.5 * (rest + rest.transpose()));
@@ -117,13 +122,13 @@ std::string postures(double at, const std::string& target) {
          std::to_string(at) + "]\n" + tools(target);
 }
 
-void write_postures(const fs::path& folder, int count, double up_to_hz) {
+void write_postures(const fs::path& folder, int count, double up_to_hz, double damping = 1.0) {
   std::ofstream list(folder / "postures.csv");
   list << "posture,u\n";
   for (int i = 0; i < count; ++i) {
     const double u = 4.0 * i / (count - 1);
     list << "p" << i << "," << u << "\n";
-    write_table(folder / ("p" + std::to_string(i) + ".csv"), u, up_to_hz);
+    write_table(folder / ("p" + std::to_string(i) + ".csv"), u, up_to_hz, true, damping);
   }
 }
 
@@ -247,7 +252,10 @@ TEST(SwapOnRobot, TheAnswersOnPosturesHaveTheDepthsOfTheMachine) {
   const std::vector<double> truth = true_depths(source, 1.3, found.chart_rpm);
   for (std::size_t i = 0; i < truth.size(); ++i)
     EXPECT_NEAR(found.envelope->together(static_cast<Eigen::Index>(i)), truth[i], 0.005 * truth[i]) << i;
-  EXPECT_TRUE((found.envelope->lower.array() <= found.envelope->low.array()).all());
+  const milling::SampledReceptance tip = study::swapped_tip(identified(postures(1.3, carbide), folder)).tip;
+  const Eigen::ArrayXd hz = milling::fitted_poles(tip).poles.cwiseAbs() / (2.0 * std::numbers::pi);
+  EXPECT_TRUE((hz < found.envelope->split_hz).any()) << "a low mode";
+  EXPECT_TRUE((hz > found.envelope->split_hz).any()) << "a high mode";
   std::size_t within = 0;
   ASSERT_EQ(std::ssize(found.map), found.mapped_at.rows());
   for (std::size_t i = 0; i < found.map.size(); ++i) {
@@ -258,6 +266,31 @@ TEST(SwapOnRobot, TheAnswersOnPosturesHaveTheDepthsOfTheMachine) {
     within += depth.low <= there && there <= depth.high ? 1 : 0;
   }
   EXPECT_GE(within + 1, found.map.size());
+}
+
+/// What a program's listener hears while something is done.
+std::string told_while(const std::function<void()>& done) {
+  std::string told;
+  const auto before = core::set_message_listener([&](core::MessageLevel, const std::string& said) { told += said; });
+  done();
+  (void)core::set_message_listener(before);
+  return told;
+}
+
+/// With a part of their damping alone the modes are those of no passive machine: the answers say so as a run does.
+TEST(SwapOnRobot, TheAnswersOnPosturesTellWhatARunTells) {
+  const fs::path folder = own_folder();
+  write_postures(folder, 6, 16e3, 0.1);
+  const Case source = parse_case(postures(1.3, carbide), folder);
+  study::PostureQuestions questions = study::questions_on({});
+  questions.spindle_speed_rpm = 14000.0;
+  const std::string told = told_while([&] { (void)study::study_postures(source, questions); });
+  const Case run = identified(postures(1.3, carbide), folder);
+  const milling::ToolFrame frame = setup::milling_process(run).frame;
+  const std::string of_run = told_while([&] { (void)study::cut_structure(run, frame, nullptr); });
+  EXPECT_NE(of_run.find("gives energy"), std::string::npos) << of_run;
+  EXPECT_NE(of_run.find("grows by itself"), std::string::npos) << of_run;
+  EXPECT_NE(told.find(of_run), std::string::npos) << told;
 }
 
 /// The change of the lines that is handed to the ranges is that of a draw's own modes, swapped by themselves.
