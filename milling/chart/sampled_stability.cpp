@@ -220,15 +220,12 @@ std::optional<Eigen::ArrayXd> changes_without_lines(const CrossingGrid& grid, co
   return changes;
 }
 
-/// The standard deviation of a depth by noise, relative: the jackknife's, from fits that each leave out a part of the
-/// lines (Efron 1982, Eq. 3.3), σ² = (g − 1)/g Σ (w_i − mean)². 1 if a crossing is lost.
+/// The standard deviation of a depth by noise, relative, by jackknife_deviation(). 1 if a crossing is lost.
 double deviation(const CrossingGrid& grid, const Crossing& crossing, const FittedStructure& structure,
                  const std::optional<DepthWeights>& weights) {
   if (structure.without.empty()) return 0.0;
   const std::optional<Eigen::ArrayXd> changes = changes_without_lines(grid, crossing, structure, weights);
-  if (!changes) return 1.0;
-  const auto count = static_cast<double>(changes->size());
-  return std::sqrt((*changes - changes->mean()).square().sum() * (count - 1.0) / count);
+  return changes ? jackknife_deviation(*changes) : 1.0;
 }
 
 /// Moves a crossing of the fit's poles to where it lies by the lines, and adds what the lines leave open.
@@ -332,6 +329,12 @@ FittedStructure beside(FittedStructure structure, const RelativeStructure& poles
     fit->poles = sum(fit->poles, poles);
   for (Fit& fit : structure.without) fit.poles = sum(fit.poles, poles);
   return structure;
+}
+
+double jackknife_deviation(const Eigen::ArrayXd& changes) {
+  if (changes.size() == 0) return 0.0;
+  const auto count = static_cast<double>(changes.size());
+  return std::sqrt((changes - changes.mean()).square().sum() * (count - 1.0) / count);
 }
 
 LobeRow row_by_lines(const FittedStructure& structure, const MillingProcess& process, double spindle_speed_rpm,
