@@ -251,7 +251,7 @@ void follow_to_lines(const FittedStructure& structure, const CutAtSpeed& cut, Lo
 }
 
 /// Adds to a row that is stable up to the depth limit what the lines leave open: twice the larger change of |μ| there.
-/// If the cut may be unstable there for that, nothing is known of its limit.
+/// If the cut may be unstable there by the estimate, nothing is known of its limit.
 void compare_at_limit(const FittedStructure& structure, const MillingProcess& process, const StabilityOptions& options,
                       LobeRow& row) {
   const auto modulus = [&](const Fit& fit) {
@@ -262,7 +262,7 @@ void compare_at_limit(const FittedStructure& structure, const MillingProcess& pr
   for (const Fit* half : {&structure.even, &structure.odd})
     open = std::max(open, std::abs(modulus(*half) / by_all - 1.0));
   row.error_estimate += 2.0 * open;
-  if (row.status != StabilityStatus::stable_to_depth_limit || by_all * (1.0 + 2.0 * open) < 1.0) return;
+  if (row.status != StabilityStatus::stable_to_depth_limit || by_all * (1.0 + row.error_estimate) < 1.0) return;
   row.error_estimate = std::max(row.error_estimate, 1.0);
   row.status = StabilityStatus::data_insufficient;
 }

@@ -312,7 +312,7 @@ TEST(SampledLines, ANoseJustAboveTheLimitThatTheLinesMayPutBelowItIsInTheEstimat
   const FlipLobes lobes;
   Draws draw(7);
   const FittedStructure fit = lobes.fit(0.03, draw);
-  LobeRow above = row_at_nose(lobes, 0.98), far_above = row_at_nose(lobes, 0.5);
+  LobeRow above = row_at_nose(lobes, 0.92), far_above = row_at_nose(lobes, 0.5);
   widen_for_near_crossings(fit, lobes.process, first_only(), above);
   widen_for_near_crossings(fit, lobes.process, first_only(), far_above);
   EXPECT_GT(above.error_estimate, 0.02);
