@@ -26,27 +26,55 @@ double off_axis(std::complex<double> nu) {
   return std::abs(nu.imag()) / nu.real();
 }
 
-/// The eigenvalues near the axis below a depth, the nearest to it first, of a search up to it.
-std::vector<NearAxis> nearest_to_axis(const CriticalDepths& search, double depth_m) {
-  constexpr double nearest_looked_at = 0.1;
-  constexpr std::size_t most = 6;
-  std::vector<NearAxis> near = search.near_axis(clearly_below * depth_m, nearest_looked_at);
-  std::ranges::sort(near, {}, [](const NearAxis& at) { return off_axis(at.nu); });
-  near.resize(std::min(near.size(), most));
-  return near;
+/// True if an eigenvalue lies on the path of the crossing at `depth_m`, to which Newton's rule leads at once.
+bool leads_to(const GainOnCircle& gain, double theta_rad, std::complex<double> nu, double depth_m) {
+  constexpr double same_depth = 0.02, short_way_rad = 0.3;
+  Crossing crossing{0.0, theta_rad, 0, {}};
+  return to_axis(gain, nu, crossing) && std::abs(crossing.depth_m / depth_m - 1.0) < same_depth &&
+         std::abs(crossing.theta_rad - theta_rad) < short_way_rad;
 }
 
-/// The distance from the eigenvalue of a flip or fold at a depth to the next real one at that angle, relative; 1 where
-/// the coarse grid does not have both.
-double gap_to_next_real(const CriticalDepths& search, Bifurcation kind, double depth_m) {
+/// The eigenvalues near the axis that a search up to a depth has met on its gain, down to where a change of them may
+/// still reach above that depth, but for those on the path of its crossing: of those below the depth and of those above
+/// it the nearest to the axis. Of conjugate ones at the ends of the half circle there is one.
+std::vector<NearAxis> nearest_to_axis(const CriticalDepths& search, const GainOnCircle& gain, double depth_m) {
+  constexpr double as_deep = 1.3, nearest_looked_at = 0.1;
+  constexpr int most = 6;
+  std::vector<NearAxis> near = search.near_axis(as_deep * depth_m, nearest_looked_at);
+  std::erase_if(near, [](const NearAxis& at) {
+    return (at.theta_rad == 0.0 || at.theta_rad == std::numbers::pi) && at.nu.imag() < 0.0;
+  });
+  std::ranges::sort(near, {}, [](const NearAxis& at) { return off_axis(at.nu); });
+  std::vector<NearAxis> others;
+  int below = 0, above = 0;
+  for (const NearAxis& at : near) {
+    int& count = at.nu.real() * clearly_below * depth_m > 1.0 ? below : above;
+    if (count == most || leads_to(gain, at.theta_rad, at.nu, depth_m)) continue;
+    ++count;
+    others.push_back(at);
+  }
+  return others;
+}
+
+/// The distance from the eigenvalue of a flip or fold at a depth to the next real one at that angle, relative. 1 where
+/// there is no other; 0 where the gain lacks the first, because by it the two have met already.
+double gap_to_next_real(GainOnCircle gain, Bifurcation kind, double depth_m) {
   constexpr double deepest = 5.0, same = 0.05;
-  const double theta = kind == Bifurcation::flip ? std::numbers::pi : 0.0;
+  gain.stops = {kind == Bifurcation::flip ? std::numbers::pi : 0.0};
+  CriticalDepths at_angle(std::move(gain));
+  (void)at_angle.up_to(deepest * depth_m);
   std::vector<double> real;
-  for (const NearAxis& at : search.near_axis(deepest * depth_m, 0.0))
-    if (at.theta_rad == theta) real.push_back(at.nu.real() * depth_m);
+  for (const NearAxis& at : at_angle.near_axis(deepest * depth_m, 0.0)) real.push_back(at.nu.real() * depth_m);
   std::ranges::sort(real, {}, [](double nu) { return std::abs(nu - 1.0); });
-  if (real.size() < 2 || std::abs(real.front() - 1.0) > same) return 1.0;
-  return std::abs(real[1] - real[0]);
+  if (real.empty() || std::abs(real.front() - 1.0) > same) return 0.0;
+  return real.size() < 2 ? 1.0 : std::abs(real[1] - real[0]);
+}
+
+/// True if a limit by flip or fold may be none, as widen_for_near_crossings() says.
+bool may_meet(const LobeRow& row, const CutAtSpeed& cut, Resolution coarse, double shape_m) {
+  if (row.at_limit || row.kind == Bifurcation::hopf) return false;
+  const DiscreteCut d = discrete(cut, finer(finer(coarse)), shape_m);
+  return 4.0 * row.error_estimate >= gap_to_next_real(gain_of(d), row.kind, row.limiting_depth_m);
 }
 
 /// The relative distance from a row's limit to the next crossing at which multipliers leave; 1 where none is known.
@@ -59,13 +87,9 @@ double distance_to_next(const LobeRow& row) {
 /// What the lines leave open of an eigenvalue, as widen_for_near_crossings() says: of its real and imaginary part.
 struct Open {
   double along = 0.0, across = 0.0;
-};
 
-/// Five standard deviations of a number by its changes without a part of the lines each (jackknife).
-double five_deviations(const Eigen::ArrayXd& changes) {
-  const auto count = static_cast<double>(changes.size());
-  return 5.0 * std::sqrt((changes - changes.mean()).square().sum() * (count - 1.0) / count);
-}
+  [[nodiscard]] bool finite() const { return std::isfinite(along) && std::isfinite(across); }
+};
 
 /// The cut on a fine grid, by all fits.
 class FineGrids {
@@ -87,17 +111,19 @@ class FineGrids {
     const auto change = [&](const DiscreteCut& d) {
       return rayleigh_quotient(pair, gain_of(d).Z(theta_rad)) - pair.nu;
     };
+    constexpr double deviations = 5.0;
     Open open;
     for (const DiscreteCut& d : by_parts_) {
       const std::complex<double> by_part = change(d);
+      // The larger of a number and NaN is the number.
+      if (!std::isfinite(std::abs(by_part))) return {INFINITY, INFINITY};
       open.along = std::max(open.along, std::abs(by_part.real()));
       open.across = std::max(open.across, std::abs(by_part.imag()));
     }
-    if (without_.empty()) return open;
     Eigen::ArrayXcd changes(static_cast<Eigen::Index>(without_.size()));
     for (std::size_t i = 0; i < without_.size(); ++i) changes(static_cast<Eigen::Index>(i)) = change(without_[i]);
-    open.along += five_deviations(changes.real());
-    open.across += five_deviations(changes.imag());
+    open.along += deviations * jackknife_deviation(changes.real());
+    open.across += deviations * jackknife_deviation(changes.imag());
     return open;
   }
 
@@ -105,14 +131,6 @@ class FineGrids {
   DiscreteCut by_all_;
   std::vector<DiscreteCut> by_parts_, without_;
 };
-
-/// True if an eigenvalue lies on the path of the crossing at `depth_m`, to which Newton's rule leads at once.
-bool leads_to(const GainOnCircle& gain, double theta_rad, std::complex<double> nu, double depth_m) {
-  constexpr double same_depth = 0.02, short_way_rad = 0.3;
-  Crossing crossing{0.0, theta_rad, 0, {}};
-  return to_axis(gain, nu, crossing) && std::abs(crossing.depth_m / depth_m - 1.0) < same_depth &&
-         std::abs(crossing.theta_rad - theta_rad) < short_way_rad;
-}
 
 /// The eigenvalue on the fine grid that is nearest to one of the coarse grid; none if there is none so near that both
 /// are one.
@@ -127,22 +145,30 @@ std::optional<Eigenpair> on_fine_grid(const GainOnCircle& gain, const NearAxis& 
   }
 }
 
-/// The least depth below the limit at which there may be a crossing, m, as widen_for_near_crossings() says.
-std::optional<double> near_crossing_m(const FittedStructure& structure, const CutAtSpeed& cut, Resolution coarse,
-                                      double shape_m, const CriticalDepths& search, double depth_m) {
-  std::optional<FineGrids> grids;
-  double least_m = depth_m;
-  for (const NearAxis& near : nearest_to_axis(search, depth_m)) {
-    if (!grids) grids.emplace(structure, cut, finer(finer(coarse)), shape_m);
-    const GainOnCircle gain = grids->gain();
+/// By how much the estimate of a row grows for eigenvalues near the axis that may be crossings below its limit, as
+/// widen_for_near_crossings() says; 0 if there are none.
+double growth_by_near(const FittedStructure& structure, const CutAtSpeed& cut, Resolution coarse, double shape_m,
+                      const std::vector<NearAxis>& nearest, const LobeRow& row) {
+  if (nearest.empty()) return 0.0;
+  const FineGrids grids(structure, cut, finer(finer(coarse)), shape_m);
+  const GainOnCircle gain = grids.gain();
+  const double depth_m = row.limiting_depth_m;
+  constexpr double rounding = 1e-9;
+  double growth = 0.0;
+  for (const NearAxis& near : nearest) {
     const std::optional<Eigenpair> pair = on_fine_grid(gain, near);
-    if (!pair || pair->nu.real() * depth_m * clearly_below <= 1.0) continue;
-    const Open open = grids->open(near.theta_rad, *pair);
+    if (!pair || leads_to(gain, near.theta_rad, pair->nu, depth_m)) continue;
+    const Open open = grids.open(near.theta_rad, *pair);
+    if (!open.finite()) return 1.0;
     const double off = std::abs(pair->nu.imag());
-    if (off > 2.0 * open.across || leads_to(gain, near.theta_rad, pair->nu, depth_m)) continue;
-    least_m = std::min(least_m, 1.0 / (pair->nu.real() + open.along + std::sqrt(2.0 * open.across * off)));
+    if (off > 2.0 * open.across) continue;
+    const double near_m = 1.0 / (pair->nu.real() + open.along + std::sqrt(2.0 * open.across * off));
+    if (near_m >= clearly_below * depth_m) continue;
+    // A real one is a crossing above the limit, and in the estimate as far as that reaches.
+    const bool apart = row.at_limit || off_axis(pair->nu) > rounding;
+    growth = std::max(growth, depth_m / near_m - 1.0 - (apart ? 0.0 : row.error_estimate));
   }
-  return least_m < depth_m ? std::optional(least_m) : std::nullopt;
+  return growth;
 }
 
 }  // namespace
@@ -157,21 +183,20 @@ void judge_by_estimate(LobeRow& row, const StabilityOptions& options) {
 
 void widen_for_near_crossings(const FittedStructure& structure, const MillingProcess& process,
                               const StabilityOptions& options, LobeRow& row) {
-  if (!(row.error_estimate < 1.0)) return;
+  // The estimate at the depth limit is one of |μ|, which may be beyond 1 where |μ| is small.
+  if (!row.at_limit && !(row.error_estimate < 1.0)) return;
   const double depth_m = row.limiting_depth_m;
   const CutAtSpeed cut = cut_at_speed(structure.all.poles, process, row.spindle_speed_rpm);
   const Resolution coarse = resolving(cut, depth_m);
   const double shape_m = process.cutter.depends_on_depth() ? depth_m : 0.0;
   const DiscreteCut d = discrete(cut, coarse, shape_m);
-  CriticalDepths search(gain_of(d));
+  const GainOnCircle gain = gain_of(d);
+  CriticalDepths search(gain);
   (void)search.up_to(depth_m);
-  double widened = row.error_estimate;
-  if (const auto near_m = near_crossing_m(structure, cut, coarse, shape_m, search, depth_m)) {
-    widened += depth_m / *near_m - 1.0;
-    if (row.at_limit) row.status = StabilityStatus::data_insufficient;
-  }
-  const bool real = !row.at_limit && row.kind != Bifurcation::hopf;
-  if (real && 4.0 * row.error_estimate >= gap_to_next_real(search, row.kind, depth_m)) widened += distance_to_next(row);
+  const double by_near = growth_by_near(structure, cut, coarse, shape_m, nearest_to_axis(search, gain, depth_m), row);
+  double widened = row.error_estimate + by_near;
+  if (row.at_limit && by_near > 0.0) row.status = StabilityStatus::data_limited;  // at best; judged below
+  if (may_meet(row, cut, coarse, shape_m)) widened += distance_to_next(row);
   row.error_estimate = widened;
   if (!row.crossings.empty()) row.crossings.front().error_estimate = widened;
   judge_by_estimate(row, options);

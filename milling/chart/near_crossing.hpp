@@ -1,6 +1,8 @@
 #pragma once
 // Crossings that a row nearly has or nearly lacks.
 
+#include <Eigen/Core>
+
 #include "milling/chart/sampled_stability.hpp"
 
 namespace thinwall::milling {
@@ -11,19 +13,21 @@ namespace thinwall::milling {
 /// a ± i√(−D) of −Z(−1) are a hair off the real axis. A change Δν (first order) is one of Re Δν in a, and of
 /// 2 Im Δν √(−D) in D, so that an eigenvalue with
 ///
-///     1/Re ν < the limit,      |Im ν| ≤ 2 |Im Δν|
+///     1/Re ν < 1.3 times the limit,      |Im ν| ≤ 2 |Im Δν|
 ///
-/// may be a crossing as shallow as 1/(Re ν + |Re Δν| + √(2 |Im Δν Im ν|)): the estimate grows by the distance to that.
+/// may be a crossing as shallow as 1/(Re ν + |Re Δν| + √(2 |Im Δν Im ν|)): the estimate grows by the distance to that,
+/// if it lies below the limit by more than a hundredth, and by 1 where a fit gives no number. For a real one, which is
+/// a crossing above the limit already, it grows to that distance only.
 /// Δν is the largest change by the fits to even lines, odd lines and lines within, and five standard deviations
 /// (jackknife) by those that each leave out a tenth of the lines. An eigenvalue on the path of the limiting crossing
 /// itself is none. On the other side of the nose the two are real, ν₁ and ν₂, and a change of |ν₁ − ν₂|/4 makes them
 /// meet: a limit by flip or fold with an estimate of as much may be none, and the estimate grows by the distance to the
-/// next crossing, or by 1 where none is known.
+/// next crossing, or by 1 where none is known. So does that of a limit which the finer grid lacks.
 ///
-/// Eigenvalues are sought at the angles of a search on the coarse grid up to the limit, those off the axis are taken
-/// from a finer one. With a helix the cut keeps the shape of the limit. The status follows the estimate. Throws
-/// NumericalError as CriticalDepths. Cost: that search, and for up to six eigenvalues with |Im ν| ≤ Re ν/10 a value of
-/// the gain by each fit.
+/// Eigenvalues are sought at the angles of a search on the coarse grid up to the limit, and taken from a finer one.
+/// With a helix the cut keeps the shape of the limit. The status follows the estimate, also that of a row at the depth
+/// limit once it has grown. Throws NumericalError as CriticalDepths. Cost: that search, and for up to six eigenvalues
+/// below the limit and six above it with |Im ν| ≤ Re ν/10 a value of the gain by each fit.
 void widen_for_near_crossings(const FittedStructure& structure, const MillingProcess& process,
                               const StabilityOptions& options, LobeRow& row);
 
@@ -40,6 +44,10 @@ void widen_for_near_crossings(const FittedStructure& structure, const MillingPro
 [[nodiscard]] Lobes lobes_by_lines(const FittedStructure& structure, const MillingProcess& process,
                                    const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options,
                                    const KeptRows& kept = {});
+
+/// The standard deviation of a number by its changes where each part of the lines in turn is left out (jackknife, Efron
+/// 1982, Eq. 3.3), σ² = (g − 1)/g Σ (x_i − mean)²; 0 of none.
+[[nodiscard]] double jackknife_deviation(const Eigen::ArrayXd& changes);
 
 /// A converged row whose estimate misses the tolerance is `data_limited`, beyond a tenth `data_insufficient`.
 void judge_by_estimate(LobeRow& row, const StabilityOptions& options);

@@ -220,15 +220,12 @@ std::optional<Eigen::ArrayXd> changes_without_lines(const CrossingGrid& grid, co
   return changes;
 }
 
-/// The standard deviation of a depth by noise, relative: the jackknife's, from fits that each leave out a part of the
-/// lines (Efron 1982, Eq. 3.3), σ² = (g − 1)/g Σ (w_i − mean)². 1 if a crossing is lost.
+/// The standard deviation of a depth by noise, relative, by jackknife_deviation(). 1 if a crossing is lost.
 double deviation(const CrossingGrid& grid, const Crossing& crossing, const FittedStructure& structure,
                  const std::optional<DepthWeights>& weights) {
   if (structure.without.empty()) return 0.0;
   const std::optional<Eigen::ArrayXd> changes = changes_without_lines(grid, crossing, structure, weights);
-  if (!changes) return 1.0;
-  const auto count = static_cast<double>(changes->size());
-  return std::sqrt((*changes - changes->mean()).square().sum() * (count - 1.0) / count);
+  return changes ? jackknife_deviation(*changes) : 1.0;
 }
 
 /// Moves a crossing of the fit's poles to where it lies by the lines, and adds what the lines leave open.
@@ -254,7 +251,7 @@ void follow_to_lines(const FittedStructure& structure, const CutAtSpeed& cut, Lo
 }
 
 /// Adds to a row that is stable up to the depth limit what the lines leave open: twice the larger change of |μ| there.
-/// If the cut may be unstable there for that, nothing is known of its limit.
+/// If the cut may be unstable there by the estimate, nothing is known of its limit.
 void compare_at_limit(const FittedStructure& structure, const MillingProcess& process, const StabilityOptions& options,
                       LobeRow& row) {
   const auto modulus = [&](const Fit& fit) {
@@ -265,7 +262,7 @@ void compare_at_limit(const FittedStructure& structure, const MillingProcess& pr
   for (const Fit* half : {&structure.even, &structure.odd})
     open = std::max(open, std::abs(modulus(*half) / by_all - 1.0));
   row.error_estimate += 2.0 * open;
-  if (row.status != StabilityStatus::stable_to_depth_limit || by_all * (1.0 + 2.0 * open) < 1.0) return;
+  if (row.status != StabilityStatus::stable_to_depth_limit || by_all * (1.0 + row.error_estimate) < 1.0) return;
   row.error_estimate = std::max(row.error_estimate, 1.0);
   row.status = StabilityStatus::data_insufficient;
 }
@@ -332,6 +329,12 @@ FittedStructure beside(FittedStructure structure, const RelativeStructure& poles
     fit->poles = sum(fit->poles, poles);
   for (Fit& fit : structure.without) fit.poles = sum(fit.poles, poles);
   return structure;
+}
+
+double jackknife_deviation(const Eigen::ArrayXd& changes) {
+  if (changes.size() == 0) return 0.0;
+  const auto count = static_cast<double>(changes.size());
+  return std::sqrt((changes - changes.mean()).square().sum() * (count - 1.0) / count);
 }
 
 LobeRow row_by_lines(const FittedStructure& structure, const MillingProcess& process, double spindle_speed_rpm,

@@ -56,6 +56,11 @@ struct Chart {
       return milling::lobe_method(method, *poles(), process, all)->limiting_depth(rpm, with.expected_depth_m);
     };
   }
+  /// Widens the estimate of a row by row_at() for what the lines leave open of other crossings.
+  void widen(milling::LobeRow& row) const {
+    if (const auto* sampled = std::get_if<milling::FittedStructure>(&structure))
+      milling::widen_for_near_crossings(*sampled, process, options.stability, row);
+  }
   /// Sensitivities of a crossing that the direct method gave from poles; else empty.
   [[nodiscard]] std::vector<ParameterSensitivity> sensitivities(double rpm, const milling::LobePoint& point) const {
     if (!direct || poles() == nullptr) return {};
@@ -130,7 +135,8 @@ PointStability stability_of(const milling::OperatingPoint& point, const Chart& c
   const milling::RowAt row_at = chart.row_at(method);
   PointStability result;
   result.point = point;
-  const milling::LobeRow row = milling::row_to(row_at, point, options);
+  milling::LobeRow row = milling::row_to(row_at, point, options);
+  chart.widen(row);
   result.stable = milling::stable_at(row, point.depth_m);
   result.depth = milling::depth_margin(row, point.depth_m);
   result.speed = milling::speed_margin(row_at, lobes.rows, point, options);
@@ -285,6 +291,7 @@ StructureLobes compute_lobes(const setup::CutSetup& source, ChartOf of, CutStruc
   result.lobes = refined_chart(source, chart, points, kept_rows(kept, core::word_of(of)));
   if (const auto rpm = source.cutting->spindle_speed_rpm) {
     result.at_spindle_speed = chart.row_at(wanted.method)(*rpm, chart.options.stability);
+    chart.widen(*result.at_spindle_speed);
     if (!result.at_spindle_speed->crossings.empty())
       result.sensitivities = chart.sensitivities(*rpm, result.at_spindle_speed->crossings.front());
   }

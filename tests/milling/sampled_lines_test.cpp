@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "milling/chart/near_crossing.hpp"
 #include "milling/chart/sampled_stability.hpp"
 #include "milling/direct/stability.hpp"
 #include "single_mode.hpp"
@@ -234,7 +235,16 @@ struct FlipLobes {
     }
     return 0.5 * (from + to);
   }
+  /// Fits of noisy lines of the poles.
+  [[nodiscard]] FittedStructure fit(double noise, Draws& draw) const {
+    SampledReceptance lines = lines_of(poles, 200.0, 8000.0, 10.0);
+    add_noise(lines, noise, draw);
+    return fitted_structure({lines, {}}, process.frame);
+  }
 };
+
+/// Between each two of these speeds there is one nose.
+constexpr std::pair<double, double> noses[] = {{9080.0, 9140.0}, {9160.0, 9240.0}, {12700.0, 12820.0}};
 
 // Beside the nose the lines say on which side of it a speed is only so far: the row has the other lobe's depth, which
 // is 40 to 70 % off, or must have it in its estimate. Three hundredths of the speed away it has not.
@@ -243,13 +253,11 @@ TEST(SampledLines, BesideTheNoseOfAFlipLobeTheOtherLobeIsInTheEstimate) {
   Draws draw(5);
   Tally beside, away;
   for (int i = 0; i < 3; ++i) {
-    SampledReceptance lines = lines_of(lobes.poles, 200.0, 8000.0, 10.0);
-    add_noise(lines, 0.003, draw);
-    const FittedStructure fit = fitted_structure({lines, {}}, lobes.process.frame);
+    const FittedStructure fit = lobes.fit(0.003, draw);
     const auto add = [&](double rpm, Tally& tally) {
       tally.add(limiting_depth(fit, lobes.process, rpm, first_only()), lobes.row(rpm));
     };
-    for (const auto& [from, to] : {std::pair{9080.0, 9140.0}, {9160.0, 9240.0}, {12700.0, 12820.0}}) {
+    for (const auto& [from, to] : noses) {
       const double nose = lobes.nose_rpm(from, to);
       for (const double off : {-3e-3, -1e-3, -1e-4, -1e-5, 1e-5, 1e-4, 1e-3, 3e-3}) add(nose * (1.0 + off), beside);
       for (const double off : {-0.03, 0.03}) add(nose * (1.0 + off), away);
@@ -261,6 +269,87 @@ TEST(SampledLines, BesideTheNoseOfAFlipLobeTheOtherLobeIsInTheEstimate) {
   EXPECT_EQ(beside.beyond, 0);
   EXPECT_EQ(away.beyond, 0);
   EXPECT_LT(away.median_estimate(), 0.1);
+}
+
+// With the crossings beyond the first, as a chart has them, the estimate is the distance to the other lobe and not all.
+TEST(SampledLines, BesideTheNoseOfAFlipLobeTheEstimateReachesHardlyFurtherThanToTheOtherLobe) {
+  const FlipLobes lobes;
+  Draws draw(6);
+  const FittedStructure fit = lobes.fit(0.003, draw);
+  StabilityOptions options;
+  options.depth_limit_m = 0.2;
+  for (const auto& [from, to] : noses) {
+    const double nose = lobes.nose_rpm(from, to);
+    const double one_m = lobes.row(nose * (1.0 - 3e-4)).limiting_depth_m;
+    const double other_m = lobes.row(nose * (1.0 + 3e-4)).limiting_depth_m;
+    const double distance = std::max(one_m, other_m) / std::min(one_m, other_m) - 1.0;
+    for (const double off : {-1e-4, -1e-5, 1e-5, 1e-4}) {
+      SCOPED_TRACE(std::to_string(nose) + " rpm, " + std::to_string(off));
+      const LobeRow found = limiting_depth(fit, lobes.process, nose * (1.0 + off), options);
+      const double exact_m = lobes.row(nose * (1.0 + off)).limiting_depth_m;
+      EXPECT_LE(std::abs(found.limiting_depth_m / exact_m - 1.0), found.error_estimate);
+      // The change by the lines comes to the distance, and what the row had before.
+      EXPECT_LT(found.error_estimate, 2.0 * distance + 0.1);
+    }
+  }
+}
+
+/// A row as of a Hopf crossing at some share of the depth of the nose, at a speed a hair off the flip lobe.
+LobeRow row_at_nose(const FlipLobes& lobes, double share) {
+  const double nose = lobes.nose_rpm(noses[0].first, noses[0].second);
+  const LobeRow sides[] = {lobes.row(nose * (1.0 - 1e-5)), lobes.row(nose * (1.0 + 1e-5))};
+  const bool flip_first = sides[0].kind == Bifurcation::flip;
+  LobeRow row;
+  row.spindle_speed_rpm = sides[flip_first ? 1 : 0].spindle_speed_rpm;
+  row.limiting_depth_m = share * sides[flip_first ? 0 : 1].limiting_depth_m;
+  row.kind = Bifurcation::hopf;
+  row.error_estimate = 1e-3;
+  row.status = StabilityStatus::converged;
+  return row;
+}
+
+TEST(SampledLines, ANoseJustAboveTheLimitThatTheLinesMayPutBelowItIsInTheEstimate) {
+  const FlipLobes lobes;
+  Draws draw(7);
+  const FittedStructure fit = lobes.fit(0.03, draw);
+  LobeRow above = row_at_nose(lobes, 0.92), far_above = row_at_nose(lobes, 0.5);
+  widen_for_near_crossings(fit, lobes.process, first_only(), above);
+  widen_for_near_crossings(fit, lobes.process, first_only(), far_above);
+  EXPECT_GT(above.error_estimate, 0.02);
+  EXPECT_LT(above.error_estimate, 0.5);
+  EXPECT_EQ(far_above.error_estimate, 1e-3);
+}
+
+TEST(SampledLines, ARowAtTheDepthLimitIsNoAnswerBesideANoseThoughItsEstimateOfTheMultiplierIsLarge) {
+  const FlipLobes lobes;
+  Draws draw(7);
+  LobeRow row = row_at_nose(lobes, 1.3);
+  row.at_limit = true;
+  row.status = StabilityStatus::stable_to_depth_limit;
+  row.error_estimate = 1.5;
+  widen_for_near_crossings(lobes.fit(0.003, draw), lobes.process, first_only(), row);
+  EXPECT_EQ(row.status, StabilityStatus::data_insufficient);
+}
+
+TEST(SampledLines, AFlipWhoseEigenvaluesHaveMetOnTheGridLeavesAllOpen) {
+  const FlipLobes lobes;
+  Draws draw(7);
+  LobeRow row = row_at_nose(lobes, 0.9);
+  row.kind = Bifurcation::flip;
+  widen_for_near_crossings(lobes.fit(0.003, draw), lobes.process, first_only(), row);
+  EXPECT_GE(row.error_estimate, 1.0);
+}
+
+TEST(SampledLines, BesideANoseAFitThatGivesNoNumberLeavesAllOpen) {
+  const FlipLobes lobes;
+  Draws draw(8);
+  FittedStructure fit = lobes.fit(0.003, draw);
+  ASSERT_FALSE(fit.without.empty());
+  fit.without.front().poles.R.setConstant(NAN);
+  LobeRow row = row_at_nose(lobes, 1.3);
+  widen_for_near_crossings(fit, lobes.process, first_only(), row);
+  EXPECT_GE(row.error_estimate, 1.0);
+  EXPECT_EQ(row.status, StabilityStatus::data_insufficient);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 """The examples and the snippets of the docs run, and print what they should."""
 
+import json
 import os
 import pathlib
 import re
@@ -214,6 +215,17 @@ def test_tool_swap(run_case):
     flips = [float(waves) for waves in re.findall(r"flip +([\d.]+) waves", text)]
     assert len(flips) > 0 and all(waves % 1 == 0.5 for waves in flips)
     assert len(re.findall(r"hopf +[\d.]+ waves", text)) > 10
+
+
+def test_the_own_speed_of_a_case_beside_a_nose_has_the_estimate_of_its_row(run_case):
+    # The nose of a flip lobe is at 18593 rpm; a chart that is narrow and coarse has the own speed among its rows.
+    settings = ["cutting.spindle_speed=18592.5 rpm", "lobes.from=18500 rpm", "lobes.to=18700 rpm", "lobes.count=9"]
+    folder = run_case("tool-swap", *settings).folder
+    own = json.loads((folder / "summary.json").read_text(encoding="utf-8"))["lobes"][0]["at_case_speed"]
+    table = [line.split(",") for line in (folder / "lobes/tool.csv").read_text(encoding="utf-8").splitlines()]
+    row = next(line for line in table if line[0] == "18592.5")
+    assert own["status"] == row[5] == "data_insufficient"
+    assert own["error_estimate_relative"] == pytest.approx(float(row[4]), rel=1e-9)
 
 
 def test_wall_path(run_case):
