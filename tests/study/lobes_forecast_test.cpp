@@ -145,7 +145,7 @@ TEST(LobesForecast, LinesThatDoNotReachTheTeethAreRefusedAsTheRunDoes) {
   const std::vector<milling::OperatingPoint> points{{15000.0, 1e-4}};
   const auto asked = forecast_lobes(slow, 600.0, points);
   ASSERT_TRUE(asked);
-  EXPECT_EQ(asked->refusal, refusal_of_run(slow, points));
+  EXPECT_EQ(asked->refusal, "tool.measured: " + refusal_of_run(slow, points)) << "the run is refused by the forecast";
   EXPECT_EQ(asked->refusal, refused->refusal) << "the chart's last speed is asked about there";
 }
 
