@@ -16,7 +16,7 @@ enum class LineDoubt {
   energy,     ///< a driving point gives energy there
 };
 
-/// What is known of an FRF besides its lines.
+/// The facts about an FRF besides its lines.
 struct LineKnowledge {
   bool driving_point = false;  ///< response and force at one place along one line
   bool held = false;           ///< the structure has no rigid-body motion: its receptance levels out towards 0 Hz

@@ -11,7 +11,7 @@
 
 namespace thinwall::io {
 
-/// What a glTF file holds: its triangles. The unit is the metre, by the specification.
+/// The triangles that a glTF file holds. The unit is the metre, by the specification.
 struct GltfSurface {
   mesh::TriangleSoup soup;
   std::string unit = "m";

@@ -11,7 +11,7 @@
 
 namespace thinwall::io {
 
-/// What a 3MF file holds: its triangles in m, and its unit, which it states.
+/// The triangles of a 3MF file in m, and its unit, which it states.
 struct ThreeMfSurface {
   mesh::TriangleSoup soup;
   std::string unit;  ///< "mm"

@@ -84,7 +84,7 @@ double distance_to_next(const LobeRow& row) {
   return 1.0;
 }
 
-/// What the lines leave open of an eigenvalue, as widen_for_near_crossings() says: of its real and imaginary part.
+/// The part of an eigenvalue that the lines leave open, as widen_for_near_crossings() says, real and imaginary.
 struct Open {
   double along = 0.0, across = 0.0;
 

@@ -150,7 +150,7 @@ double surely_stable_depth_m(const CutAtSpeed& cut) {
 Eigen::VectorXcd multipliers(const DiscreteCut& d, double depth_m) {
   core::check_interrupt();
   Eigen::MatrixXd map = period_map(d.loop, depth_m);
-  // Where I + wK is singular to round-off, a depth that a search may well come upon, a multiplier is infinite; a hair
+  // If I + wK is singular to round-off, a depth that a search may well come upon, a multiplier is infinite; a hair
   // beside it is large, and no other changes.
   constexpr double hair = 1e-9;
   if (!map.allFinite()) map = period_map(d.loop, (1.0 + hair) * depth_m);

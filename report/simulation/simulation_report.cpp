@@ -125,7 +125,7 @@ std::string lag_text(const std::vector<double>& lag_m) {
                      length(lag_m[0]), length(lag_m[1]));
 }
 
-/// What is not known of a point on paths that are not circles: whether its chips are what the part lost.
+/// A doubt about a point on paths that are not circles: whether its chips are what the part lost.
 std::string unchecked_text(const SimulatedPointSummary& p, const std::string& paths) {
   if (paths == "circular" || p.removal_error_relative) return "";
   return "  removal    not checked, whether steps are enough: vibration reaches walls that are finished, or the record "

@@ -91,8 +91,9 @@ Took mean_row(const std::function<void(double rpm)>& row, double from_rpm, doubl
   return mean;
 }
 
-/// What milling::require_range() has against the tool's lines at the speeds that the chart certainly has, the highest
-/// first, for it needs the widest range; empty if nothing, or if the lines follow from modes that are not learned yet.
+/// The objection of milling::require_range() against the tool's lines at the speeds that the chart certainly has, the
+/// highest first, for it needs the widest range; empty if nothing, or if the lines follow from modes that are not
+/// learned yet.
 std::string refusal_of_lines(const setup::Setup& source, const std::vector<milling::OperatingPoint>& points) {
   if (!setup::known_by_lines(*source.tool) || setup::awaits_learning(source)) return "";
   const milling::MillingProcess process = setup::milling_process(source);

@@ -45,7 +45,7 @@ struct SwappedResponse {
 /// once. Errors as swapped_tip(). Cost: some 10 µs a line.
 using TipOfModes = std::function<SwappedTip(const dynamics::ModalTable&)>;
 
-/// What swaps of other tables have in common is computed once. Errors as swapped_tip().
+/// The part that swaps of other tables have in common is computed once. Errors as swapped_tip().
 [[nodiscard]] TipOfModes tip_of_modes(const setup::CutSetup& source);
 
 /// tip_of_modes() of tables, shared out among the threads.
