@@ -170,7 +170,7 @@ void add_nearest(const Eigen::MatrixXd& distance, int number, Neighbours& neighb
   }
 }
 
-/// What each name of a posture costs at each of its modes, summed over the neighbours that have the name.
+/// The cost of each name of a posture at each of its modes, summed over the neighbours that have the name.
 Eigen::MatrixXd costs_of_names(const std::vector<Modes>& postures, std::size_t at, const std::vector<int>& names,
                                const std::vector<std::size_t>& neighbours, const Tracking& tracking) {
   const auto modes = static_cast<Eigen::Index>(names.size());

@@ -1,5 +1,5 @@
 #pragma once
-// How well poles and residues can be known from noisy lines: the bound of Cramer and Rao.
+// The bound of Cramer and Rao: how well poles and residues can be known from noisy lines.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace thinwall::identification::testing {
 
-/// What no estimator without bias falls below, by modes.
+/// The mean squares of errors that no estimator without bias falls below, by modes.
 struct Bound {
   double pole = 0.0;         ///< expected |δλ|², (rad/s)²
   Eigen::ArrayXXd residues;  ///< expected |δR|² of each entry

@@ -137,7 +137,7 @@ const identification::FittedMode& named(const Grid& grid, std::size_t at, int na
   return grid.modes[at][static_cast<std::size_t>(std::ranges::find(grid.truth[at], name) - grid.truth[at].begin())];
 }
 
-/// What the exchange of two modes of a posture would cost, summed over the six nearest places of the whole grid.
+/// The cost of an exchange of two modes of a posture, summed over the six nearest places of the whole grid.
 double cost_of_exchange(const Grid& grid, std::size_t at, std::size_t a, std::size_t b) {
   const Eigen::RowVector3d range = grid.places.colwise().maxCoeff() - grid.places.colwise().minCoeff();
   std::vector<std::pair<double, std::size_t>> nearest;
@@ -188,7 +188,7 @@ TEST(TrackedRobot, HasTrueNamesOrDoubtfulOnes) {
   }
 }
 
-/// Where 28, 42 and 56 postures of a design fill the workspace, names are true or doubtful, or those of small steps
+/// Names over 28, 42 and 56 postures of a design that fills the workspace are true or doubtful, or those of small steps
 /// jump, which they do at two postures of 112; 3 % are doubtful at most. Neither have these twelve sets by chance other
 /// names that nothing is said of; two had some while postures heard others that did not hear them. (Of 600 sets 2 %
 /// have some.)

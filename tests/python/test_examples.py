@@ -51,7 +51,7 @@ def test_lobes_from_frf():
     assert number(r"peak at ([\d.]+) Hz", text) == pytest.approx(600.0, rel=1e-3)
 
 
-# What makes a case quick. Where these are the settings that a page of the docs adds, in its order, one run serves both.
+# Settings that make a case quick. If a page of the docs adds the same ones in this order, one run serves both.
 COARSE = {
     "barrios-2019-measured": ("part.mesh.tolerance=0.05",),
     "cantilever-wall": ("part.mesh.tolerance=0.05", "lobes.count=10"),

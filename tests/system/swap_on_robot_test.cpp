@@ -268,7 +268,7 @@ TEST(SwapOnRobot, TheAnswersOnPosturesHaveTheDepthsOfTheMachine) {
   EXPECT_GE(within + 1, found.map.size());
 }
 
-/// What a program's listener hears while something is done.
+/// The messages that a program's listener hears while something is done.
 std::string told_while(const std::function<void()>& done) {
   std::string told;
   const auto before = core::set_message_listener([&](core::MessageLevel, const std::string& said) { told += said; });
