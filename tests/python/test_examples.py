@@ -59,7 +59,7 @@ COARSE = {
     "huynh-2017-support": ("lobes.count=3",),
     "irb6660-measured": ("part.mesh.tolerance=0.05", "lobes.count=3"),
     "posture-map": ("lobes.count=20",),
-    "pocketed-rib": ("part.mesh.tolerance=0.1", "lobes.count=10"),
+    "pocketed-rib": ("part.mesh.tolerance=0.1", "part.mesh.order=4", "lobes.count=10"),
 }
 
 
