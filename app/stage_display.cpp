@@ -10,7 +10,8 @@ namespace thinwall::app {
 
 namespace {
 
-constexpr std::chrono::milliseconds quiet_for = std::chrono::seconds(10);  // at most, of a log with lines of stages
+constexpr std::chrono::milliseconds between_counts = std::chrono::seconds(10);  // of a long loop, in a log
+constexpr std::chrono::milliseconds quiet_for = std::chrono::seconds(15);       // a log at most: a count comes before
 
 }  // namespace
 
@@ -29,7 +30,7 @@ std::string progress_text(const std::string& stage, const core::ProgressReport& 
 
 StageDisplay::StageDisplay(ProgressDisplay display) : display_(display) {
   if (display == ProgressDisplay::none) return;
-  const auto interval = display == ProgressDisplay::line ? std::chrono::milliseconds(100) : quiet_for;
+  const auto interval = display == ProgressDisplay::line ? std::chrono::milliseconds(100) : between_counts;
   core::set_progress_listener([this](const core::ProgressReport& report) { show(report); }, interval);
   ticker_ = std::jthread([this](const std::stop_token& stop) { tell_that_it_goes_on(stop); });
 }

@@ -27,7 +27,7 @@ enum class ProgressDisplay {
 [[nodiscard]] std::string progress_text(const std::string& stage, const core::ProgressReport& report);
 
 /// Shows each stage as it begins, and how far the loops within it are; in a stage without a loop, that it goes on: its
-/// time each second on a terminal's line, a line of the log every ten seconds. One at a time: it listens to
+/// time each second on a terminal's line, a line of the log every fifteen seconds. One at a time: it listens to
 /// core::Progress.
 class StageDisplay {
  public:

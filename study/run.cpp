@@ -296,7 +296,7 @@ void add_forced_over_speed(const setup::Setup& work, const ContactForceOf& force
 /// it.
 void bound_modes(const PartResult& part, setup::Setup& work) {
   if (!work.lobes || !work.cutting || !work.tool || work.lobes->modes_up_to_hz || !part.reduced) return;
-  work.lobes->modes_up_to_hz = usual_modes_up_to_hz(work, part.reduced->fixed_interface_hz);
+  work.lobes->modes_up_to_hz = usual_modes_up_to_hz(part.reduced->fixed_interface_hz);
   if (!work.lobes->modes_up_to_hz) return;
   core::inform(fmt::format(
       "modes of the part above {:.1f} kHz, one and a half times the highest of its reduction, act by their static "

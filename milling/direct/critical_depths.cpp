@@ -151,8 +151,16 @@ void add_at_end(const GainOnCircle& gain, double theta, const std::vector<Path>&
 CriticalDepths::CriticalDepths(GainOnCircle gain) : gain_(std::move(gain)) {}
 
 double CriticalDepths::none_below_m() {
+  std::vector<Stop*> stops;
+  for (const double theta : gain_.stops) stops.push_back(&at(theta));
+  // A bound costs two products and never exceeds the norm: where the norm is no more than the largest bound so far,
+  // none is needed.
+  std::ranges::sort(stops, std::ranges::greater{}, &Stop::norm);
   double largest = 0.0;
-  for (const double theta : gain_.stops) largest = std::max(largest, bound_of(at(theta)));
+  for (Stop* stop : stops) {
+    if (stop->norm <= largest) break;
+    largest = std::max(largest, bound_of(*stop));
+  }
   return 0.75 / largest;
 }
 

@@ -125,9 +125,9 @@ dynamics::ModalModel kept_modes(const setup::CutSetup& source, const dynamics::M
   return dynamics::truncate(part, 2.0 * std::numbers::pi * *source.lobes->modes_up_to_hz, true);
 }
 
-std::optional<double> usual_modes_up_to_hz(const setup::CutSetup& source, const Eigen::VectorXd& fixed_interface_hz) {
+std::optional<double> usual_modes_up_to_hz(const Eigen::VectorXd& fixed_interface_hz) {
   constexpr double beyond_reduction = 1.5;
-  if (fixed_interface_hz.size() == 0 || !setup::milling_process(source).cutter.depends_on_depth()) return std::nullopt;
+  if (fixed_interface_hz.size() == 0) return std::nullopt;
   return beyond_reduction * fixed_interface_hz.maxCoeff();
 }
 

@@ -14,8 +14,6 @@ namespace thinwall::tests::chart_modes_test {
 
 namespace {
 
-const std::string helix = "helices = [\"30 deg\", \"30 deg\"]\n";
-
 /// 80 × 40 × 2 mm, clamped at its foot, cut in the middle of its edge by two teeth.
 cases::Case wall(const std::string& teeth, const std::string& lobes = "") {
   return cases::parse_case(R"([part]
@@ -66,21 +64,23 @@ study::Results run(const cases::Case& source) {
   return study::run(source, cases::variation_of(source), nothing, {});
 }
 
-TEST(ChartModes, AHelixResolvesThoseThatTheReductionKnowsAndStraightTeethAll) {
-  const Eigen::VectorXd kept = Eigen::Vector3d(700.0, 9000.0, 4000.0);
-  EXPECT_EQ(study::usual_modes_up_to_hz(wall(helix), kept), 13500.0);
-  EXPECT_EQ(study::usual_modes_up_to_hz(wall(""), kept), std::nullopt);
-  EXPECT_EQ(study::usual_modes_up_to_hz(wall(helix), Eigen::VectorXd()), std::nullopt);
+TEST(UsualChartModes, GoUpToOneAndAHalfTimesTheHighestOfTheReduction) {
+  EXPECT_EQ(study::usual_modes_up_to_hz(Eigen::Vector3d(700.0, 9000.0, 4000.0)), 13500.0);
+  EXPECT_EQ(study::usual_modes_up_to_hz(Eigen::VectorXd()), std::nullopt);
 }
 
-TEST(ChartModes, AreThoseOfTheReductionInARunAndMoreChangeTheLimitsLittle) {
-  const study::Results usual = run(wall(helix));
+class ChartModes : public testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(Teeth, ChartModes, testing::Values("", "helices = [\"30 deg\", \"30 deg\"]\n"));
+
+TEST_P(ChartModes, AreThoseOfTheReductionInARunAndMoreChangeTheLimitsLittle) {
+  const study::Results usual = run(wall(GetParam()));
   ASSERT_TRUE(usual.setup.lobes->modes_up_to_hz);
   const double highest_hz = usual.finite_elements->reduced->fixed_interface_hz.maxCoeff();
   EXPECT_EQ(*usual.setup.lobes->modes_up_to_hz, 1.5 * highest_hz);
   EXPECT_LE(highest_hz, 12e3);
   EXPECT_GT(usual.lobes[0].lobes.residual_share, 0.0);
-  const study::Results more = run(wall(helix, "modes_up_to = \"50 kHz\"\n"));
+  const study::Results more = run(wall(GetParam(), "modes_up_to = \"50 kHz\"\n"));
   EXPECT_EQ(*more.setup.lobes->modes_up_to_hz, 50e3) << "as the case gives it";
   EXPECT_LT(more.lobes[0].lobes.residual_share, usual.lobes[0].lobes.residual_share);
   for (std::size_t i = 0; i < more.lobes[0].lobes.rows.size(); ++i) {
