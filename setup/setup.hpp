@@ -23,6 +23,7 @@
 #include "setup/loose_pieces.hpp"
 #include "setup/machining_setup.hpp"
 #include "setup/materials/cut_materials.hpp"
+#include "setup/materials/specific_forces.hpp"
 #include "setup/measured.hpp"
 #include "setup/measured_frf.hpp"
 #include "setup/measured_layout.hpp"

@@ -7,6 +7,8 @@
 #include <numeric>
 
 #include "core/units.hpp"
+#include "setup/materials/cut_materials.hpp"
+#include "setup/materials/specific_forces.hpp"
 #include "setup/milling_process.hpp"
 
 namespace thinwall::cases {
@@ -58,6 +60,17 @@ void require_feed(const Case& source, const std::string& key, const std::string&
                            "cutting.spindle_speed");
 }
 
+/// A material of which the linear law has no coefficients, where the case asks for that law.
+void check_cut_material(const Case& source, Findings& findings) {
+  const CaseValue* given = find(source.values, "cutting.material");
+  const auto* material = given ? std::get_if<std::string>(&given->value) : nullptr;
+  if (!material || source.cutting->law != setup::ForceLawKind::linear) return;
+  if (setup::coefficients_of(*material) || !setup::power_law_of(*material)) return;
+  findings.report("cutting.material", *material +
+                                          " is published for the power law only; write cutting.law = \"power\", "
+                                          "where Kt is that at a chip of 1 mm, or leave the material out");
+}
+
 }  // namespace
 
 void check_tool(const setup::Tool& tool, Findings& findings) {
@@ -105,11 +118,15 @@ void check_engagement(const Case& source, Findings& findings) {
 
 void check_force_law(const Case& source, Findings& findings) {
   const setup::Cutting& c = *source.cutting;
+  check_cut_material(source, findings);
   const bool curved = c.law == setup::ForceLawKind::power || c.law == setup::ForceLawKind::fractional;
   const bool unreadable = c.exponents.empty();  // reported
   if (c.law == setup::ForceLawKind::power && c.exponents.size() != 3 && !unreadable)
     findings.report("cutting.exponents", "the power law needs one exponent, or three for Kt, Kr, Ka");
-  if (curved) require_feed(source, "cutting.law", "a law that is not linear", findings);
+  if (curved && findings.written("cutting.law"))
+    require_feed(source, "cutting.law", "a law that is not linear", findings);
+  else if (curved)
+    require_feed(source, "cutting.material", "the power law, which alone is published of this material,", findings);
   if (!source.tool) return;
   if (!source.tool->runout.empty()) require_feed(source, "tool.runout", "what runout does", findings);
   if (curved && source.tool->end != setup::ToolEnd::flat) {

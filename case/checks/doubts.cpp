@@ -7,10 +7,10 @@
 #include <numbers>
 #include <utility>
 
+#include "case/checks/material_doubts.hpp"
 #include "core/units.hpp"
 #include "milling/cut/chip_load.hpp"
 #include "setup/identified/posture_tables.hpp"
-#include "setup/materials/cut_materials.hpp"
 #include "setup/milling_process.hpp"
 #include "setup/simulation_options.hpp"
 
@@ -103,37 +103,6 @@ void ask_about_robot_damping(const Case& source, std::vector<std::string>& doubt
   const std::string written = core::number_text(*robot->damping, 3);
   doubts.push_back("robot.damping is " + written + " N s/m, a damping ratio of " + core::number_text(ratio, 1) +
                    ": did you mean damping_ratio = " + written + "?");
-}
-
-/// A clause on the use that the robust chart makes of a material's spread; empty where there is no such chart.
-std::string use_of_spread(const Case& source, double spread) {
-  if (!source.lobes || !source.lobes->robust) return "";
-  const double taken = source.lobes->robust->uncertainty.coefficients;
-  if (taken == spread) return ", which the robust chart takes";
-  return ", though the robust chart takes " + core::number_text(100.0 * taken, 2) + " % of lobes.uncertainty";
-}
-
-/// Coefficients that are those of no tool of the case.
-void ask_about_cut_material(const Case& source, std::vector<std::string>& doubts) {
-  const CaseValue* given = find(source.values, "cutting.material");
-  const auto* material = given ? std::get_if<std::string>(&given->value) : nullptr;
-  const auto middle = material ? setup::coefficients_of(*material) : std::nullopt;
-  if (!middle) return;
-  const auto named = [](const char* name, double value) {
-    return name + (" " + core::readable_text(value, core::kind::stress));
-  };
-  const bool K_t = source.cutting->Kt == middle->K_t, K_r = source.cutting->Kr == middle->K_r;
-  if (!K_t && !K_r) return;
-  const std::string taken = K_t && K_r ? named("Kt", middle->K_t) + " and " + named("Kr", middle->K_r)
-                            : K_t      ? named("Kt", middle->K_t)
-                                       : named("Kr", middle->K_r);
-  const std::string spread = K_t ? ", between which coefficients have a standard deviation of " +
-                                       core::number_text(100.0 * middle->spread, 2) + " %" +
-                                       use_of_spread(source, middle->spread)
-                                 : ", beside a Kt of your own, whose uncertainty is yours to give";
-  doubts.push_back("cutting.material " + *material + ": " + taken + (K_t && K_r ? " are" : " is") + " the middle of " +
-                   std::to_string(middle->tools) + " published tools" + spread +
-                   "; the range of chip thickness is not published; thinwall coefficients finds those of your tool");
 }
 
 /// Coefficients that were measured with thicker chips.

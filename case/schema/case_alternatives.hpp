@@ -119,9 +119,9 @@ inline constexpr Belonging case_belongings[] = {
     {"tool.tip_angle", "tool.end", "general"},
     {"tool.taper", "tool.end", "general"},
 
-    {"cutting.material", "cutting.law", "linear"},
+    {"cutting.material", "cutting.law", "linear|power"},
     {"cutting.Kt", "cutting.law", "linear|power|fractional", belongings::needed, "cutting.material"},
-    {"cutting.exponents", "cutting.law", "power", belongings::needed},
+    {"cutting.exponents", "cutting.law", "power", belongings::needed, "cutting.material"},
     {"cutting.chip_scale", "cutting.law", "fractional", belongings::needed},
     {"cutting.stiffness_ratio", "cutting.law", "fractional", belongings::needed},
     {"cutting.shear_stress", "cutting.law", "oblique", belongings::needed},

@@ -354,7 +354,7 @@ constexpr Key case_keys[] = {
     Key{"cutting.mode", Type::choice, kind::number, "\"down\"", any, "down|up", "Down (climb) or up (conventional) milling."},
     Key{"cutting.feed_direction", Type::direction, kind::number, "\"y\"", any, "", "Feed of the tool, in the part's axes."},
     Key{"cutting.tool_axis", Type::direction, kind::number, "\"z\"", any, "", "Axis of the tool, in the part's axes."},
-    Key{"cutting.material", Type::choice, kind::number, "", any, "Al6061|Al7075-T6", "Of which published coefficients are taken: the middle of several tools for Kt and Kr, where these are not given, and with Kt the larger of their spreads for lobes.uncertainty.coefficients. For the linear law."},
+    Key{"cutting.material", Type::choice, kind::number, "", any, "16MnCr5|34CrNiMo6|42CrMo4|A286|AISI304|AISI316L|Al2024|Al5083|Al6061|Al6082|Al7050|Al7075-T6|AlSi10Mg|brass|C45|C55|GJL-250|Inconel625|Inconel718|S235|Ti-grade2|Ti6Al4V|X20Cr13", "Of which published coefficients are taken where they are not given, the middle of several sources: Kt and Kr of the linear law for `Al6061` and `Al7075-T6`, and of the power law with its exponent for every material, which is taken where `law` is not given and the linear one is not published; with Kt their spread for lobes.uncertainty.coefficients."},
     Key{"cutting.Kt", Type::quantity, kind::stress, "", coefficient_bounds, "", "Tangential cutting coefficient: K_t of the linear law, k1.1 (at a chip of 1 mm) of the power law, stiffness at thin chips of the fractional one."},
     Key{"cutting.Kr", Type::quantity, kind::stress, "0", radial_bounds, "", "Radial cutting coefficient."},
     Key{"cutting.Ka", Type::quantity, kind::stress, "0", axial_bounds, "", "Axial cutting coefficient, positive towards the spindle."},

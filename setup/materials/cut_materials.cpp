@@ -44,6 +44,12 @@ std::span<const PublishedCut> published_cuts() {
   return table;
 }
 
+double usual_radial_share() {
+  double log_ratio = 0.0;
+  for (const PublishedCut& cut : table) log_ratio += std::log(cut.K_r / cut.K_t);
+  return std::exp(log_ratio / static_cast<double>(table.size()));
+}
+
 std::optional<MaterialCoefficients> coefficients_of(std::string_view material) {
   MaterialCoefficients middle;
   std::vector<double> tangential, radial;

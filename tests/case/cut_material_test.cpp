@@ -139,10 +139,10 @@ TEST(CutMaterial, TellsChipsThatAreThinnerThanThoseMeasured) {
   EXPECT_TRUE(told("0.0637 mm"));
 }
 
-TEST(CutMaterial, BelongsToTheLinearLaw) {
-  EXPECT_THROW(
-      (void)case_with("material = \"Al7075-T6\"\nlaw = \"power\"\nexponents = [0.2]\nfeed_per_tooth = \"0.1 mm\""),
-      CaseError);
+TEST(CutMaterial, BelongsToLawsOfPublishedCoefficients) {
+  EXPECT_THROW((void)case_with("material = \"Al7075-T6\"\nlaw = \"oblique\"\nshear_stress = \"300 MPa\"\n"
+                               "friction_angle = \"30 deg\""),
+               CaseError);
   EXPECT_THROW((void)case_with("material = \"unobtainium\""), CaseError);
 }
 
