@@ -5,7 +5,8 @@ import { numbers } from './decode.js';
 import { faint } from './colours.js';
 import { isNumber, millimetres, number, percent, plain, rpm as speed, scaled } from './format.js';
 import { between, decades, plot } from './plot.js';
-import { learnedLines, observedMarks, observedOf, observedTable } from './observed.js';
+import { learnedLines, learnedOf, learnedTables, proposedCuts, proposedMarks } from './learned.js';
+import { observedMarks, observedOf, observedTable } from './observed.js';
 import { pointMarks, pointsOf, pointTable } from './points.js';
 import { followMark, onShownPoint, simulatedPoints, simulationMarks } from './simulated.js';
 
@@ -49,14 +50,15 @@ export function lobesLead(runs) {
     all.some(({ lobe }) => lobe.compared) ? 'Thin lines: the limits of other methods, where they converged.' : '', has('not_converged') ? 'Crosses on the line did not converge.' : '',
     kinds.length ? `The lower panel gives the frequency of the chatter that begins at the line (${kinds.map((k) => signs[k]).join(', ')}${runs.length > 1 ? '; open of the first run, filled of the second' : ''}).` : '',
     runs.some((run) => pointsOf(run).length) ? 'Operating points are circles where they are stable, crosses where they chatter.' : '',
-    runs.some((run) => run.summary.lobes?.at(-1)?.learned) ? 'Lines called learned: what is stable with 50 and 95 % of what these cuts left possible.' : '',
+    runs.some(learnedOf) ? 'The full line is the chart before any cut; lines called learned are what is stable with 50 and 95 % of what the cuts left possible.' : '',
+    runs.some((run) => proposedCuts(run).length) ? 'The star is the cut to make next, a triangle the one that removes most at the case’s risk.' : '',
     runs.some((run) => observedOf(run).length) ? 'Cuts that were made are filled where the chart is right, open and large where it is wrong: circles were stable, crosses chattered, diamonds were marginal. One that is open with a dot has a doubtful prediction and does not count.' : '',
     simulatedPoints(runs).length ? 'Diamonds were simulated; a click on one leads to its simulation.' : ''].filter(Boolean).join(' ');
 }
 
 /** Beneath the chart: the operating points, and what else is known of its limits. */
 function tables(run, labelled) {
-  const list = [observedTable(run), pointTable(run), chartTable(run)].filter(Boolean);
+  const list = [observedTable(run), ...learnedTables(run), pointTable(run), chartTable(run)].filter(Boolean);
   return [labelled && list.length ? el('h3', {}, run.label) : null, ...list];
 }
 
@@ -86,7 +88,7 @@ const label = (curve, runs) => plain((runs.length > 1 ? `${curve.run.label}: ` :
 const colourOf = (curve, colours) => colours[curve.lobe.name] ?? colours.robot;
 
 function build(curves, runs, rate, options, colours, narrow) {
-  const points = [...runs.flatMap(pointsOf), ...runs.flatMap((run) => observedOf(run).at(-1)?.cuts ?? []), ...simulatedPoints(runs).map(({ point }) => point)];
+  const points = [...runs.flatMap(pointsOf), ...runs.flatMap((run) => observedOf(run).at(-1)?.cuts ?? []), ...runs.flatMap(proposedCuts), ...simulatedPoints(runs).map(({ point }) => point)];
   const speeds = [...curves.flatMap((c) => [c.rpm[0], c.rpm.at(-1)]), ...points.map((p) => p.spindle_speed_rpm)];
   const [from, to] = [Math.min(...speeds), Math.max(...speeds)];
   const edge = (to - from) * 0.012;
@@ -98,6 +100,7 @@ function build(curves, runs, rate, options, colours, narrow) {
     ...curves.flatMap((c) => pockets(c, runs, colours)),
     ...learnedLines(runs, colours),
     ...observedMarks(runs, colours),
+    ...proposedMarks(runs, colours),
     ...pointMarks(runs, colours),
     ...simulationMarks(runs, colours),
     ...(options.crossings ? curves.flatMap((c) => crossings(c, colours)) : []),

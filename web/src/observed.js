@@ -13,7 +13,7 @@ export const observedOf = (run) => (run.summary.lobes ?? []).filter((chart) => c
 function note(cut) {
   const said = cut.predicted_stable ? 'stable' : 'chatter';
   const chance = isNumber(cut.chatter_probability) ? `, ${percent(cut.chatter_probability, 2)} of the draws chatter` : '';
-  return plain(`${number(cut.spindle_speed_rpm, 5)} rpm, ${number(cut.depth_m * 1e3, 3)} mm: seen ${cut.observed}, predicted ${said}${isDoubtful(cut) ? ', which is doubtful' : ''}${chance}`);
+  return `${number(cut.spindle_speed_rpm, 5)} rpm, ${number(cut.depth_m * 1e3, 3)} mm: seen ${cut.observed}, predicted ${said}${isDoubtful(cut) ? ', which is doubtful' : ''}${chance}`;
 }
 
 /** A trace for each outcome: its sign says what was seen, a thick ring that the prediction is wrong. Of several charts the last is shown. */
@@ -32,18 +32,8 @@ export function observedMarks(runs, colours) {
   });
 }
 
-/** The depths that are stable with 50 and 95 % of what the cuts left possible, where the chart learned from them. */
-export function learnedLines(runs, colours) {
-  return runs.flatMap((run, i) => {
-    const learned = (run.summary.lobes ?? []).at(-1)?.learned;
-    if (!learned) return [];
-    const line = (name, key, dash) => ({ name: `${runs.length > 1 ? `${plain(run.label)}: ` : ''}${name}`, x: learned.rows.map((row) => row.spindle_speed_rpm), y: learned.rows.map((row) => row[key] * 1e3),
-      mode: 'lines', line: { color: colours.mark, width: 1.6, dash }, hovertemplate: '%{y:.4~g} mm', meta: `learned ${i} ${key}` });
-    return [line('learned', 'median_m', 'dash'), line('learned, stable with 95 %', 'stable_95_m', 'dot')];
-  });
-}
-
-const share = (s) => (s && s.of ? `${s.right} of ${s.of}, ${number(100 * s.share, 2)} % (${number(100 * s.low, 2)} to ${number(100 * s.high, 2)} %)` : null);
+/** "41 of 46, 89 % (77 to 95 %)"; null where nothing was counted. */
+export const share = (s) => (s && s.of ? `${s.right} of ${s.of}, ${number(100 * s.share, 2)} % (${number(100 * s.low, 2)} to ${number(100 * s.high, 2)} %)` : null);
 
 /** How often each chart is right; null where no cut was made. */
 export function observedTable(run) {
