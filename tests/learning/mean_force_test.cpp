@@ -60,6 +60,57 @@ TEST(MeanForces, GiveTheirCoefficientsBack) {
   EXPECT_EQ(fit.degrees_of_freedom, 12);
 }
 
+/// Slots that were measured: means over one turn (100 samples) of the record of Jianhui Li,
+/// github.com/leekunhwee/ForceCalculation, General/Flat end milling, 25 mm, two teeth, 6000 rpm: the first turn of
+/// 6-n6000f300ap3ae25.csv, the last one of the files at 600 to 1500 mm/min. His y is the column Fx, his x Fy.
+std::vector<MeanForceTest> measured_slots() {
+  std::vector<MeanForceTest> tests;
+  for (const auto& [feed_mm, force] : {std::pair{0.025, Eigen::Vector3d(-40.72, 62.28, 56.76)},
+                                       {0.05, Eigen::Vector3d(-60.58, 106.83, 70.06)},
+                                       {0.075, Eigen::Vector3d(-72.33, 138.40, 84.26)},
+                                       {0.1, Eigen::Vector3d(-76.33, 173.99, 88.17)},
+                                       {0.125, Eigen::Vector3d(-73.08, 213.79, 81.11)}})
+    tests.push_back({{0.0, pi}, 3e-3, 1e-3 * feed_mm, force});
+  return tests;
+}
+
+/// Slope and intercept of one component over the feed, by his equations 26 and 27.
+Eigen::Vector2d line_of(const std::vector<MeanForceTest>& tests, int axis) {
+  const auto n = static_cast<double>(tests.size());
+  double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+  for (const MeanForceTest& test : tests) {
+    x += test.feed_per_tooth_m;
+    y += test.force_n(axis);
+    xx += test.feed_per_tooth_m * test.feed_per_tooth_m;
+    xy += test.feed_per_tooth_m * test.force_n(axis);
+  }
+  const double slope = (n * xy - x * y) / (n * xx - x * x);
+  return {slope, (y - slope * x) / n};
+}
+
+TEST(MeanForces, OfMeasuredSlotsGiveTheCoefficientsOfTheirPublication) {
+  const auto tests = measured_slots();
+  const CoefficientFit fit = fit_mean_forces(2, tests);
+  // His equations 29 to 31 on the same means, with N a_p = 2 · 3 mm.
+  const Eigen::Vector2d feed = line_of(tests, 0), normal = line_of(tests, 1), axis = line_of(tests, 2);
+  constexpr double Na = 2.0 * 3e-3;
+  EXPECT_NEAR(fit.K_t.value / (4.0 * normal(0) / Na), 1.0, 1e-9);
+  EXPECT_NEAR(fit.K_te.value / (pi * normal(1) / Na), 1.0, 1e-9);
+  EXPECT_NEAR(fit.K_r.value / (-4.0 * feed(0) / Na), 1.0, 1e-9);
+  EXPECT_NEAR(fit.K_re.value / (-pi * feed(1) / Na), 1.0, 1e-9);
+  EXPECT_NEAR(fit.K_a.value / (pi * axis(0) / Na), 1.0, 1e-9);
+  EXPECT_NEAR(fit.K_ae.value / (2.0 * axis(1) / Na), 1.0, 1e-9);
+  // His coefficients (Force.m), of means over a second, lie within the intervals.
+  for (const auto& [found, published] : {std::pair{fit.K_t, 958.8599e6},
+                                         {fit.K_r, 250.8633e6},
+                                         {fit.K_a, 146.3614e6},
+                                         {fit.K_te, 15.7580e3},
+                                         {fit.K_re, 19.4337e3},
+                                         {fit.K_ae, 18.2075e3}})
+    EXPECT_LE(std::abs(found.value - published), found.half_interval) << published;
+  EXPECT_NEAR(fit.K_t.value / 958.8599e6, 1.0, 0.05) << "a turn of a hundred";
+}
+
 TEST(MeanForces, HaveIntervalsThatHoldTheTruthInNinetyFivePercentOfDraws) {
   std::mt19937 random(11);
   const std::vector<MeanForceTest> exact = tests_at(3);
