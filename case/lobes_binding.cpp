@@ -48,7 +48,8 @@ std::vector<setup::ObservedCuts> bind_observed(const std::vector<Table>& tables,
 
 setup::Calibration bind_calibration(const Table& table) {
   setup::Calibration calibration{
-      table.integer("draws"), table.integer("seed"), {}, table.optional("spindle_speed"), table.optional("risk")};
+      table.integer("draws"),           table.integer("seed"), {}, table.optional("spindle_speed"),
+      table.optional("speed_exponent"), table.optional("risk")};
   if (table.has("folds")) calibration.folds = table.integer("folds");
   return calibration;
 }

@@ -116,7 +116,8 @@ std::vector<Draw> draws_for(const Calibration& calibration, std::size_t draws,
 
 std::optional<double> limit_at(const milling::Cut& cut, double spindle_speed_rpm, milling::StabilityOptions options) {
   options.follow = 1.0;
-  return answered_limit_m(milling::limiting_depth(cut.structure, cut.process, spindle_speed_rpm, options));
+  return answered_limit_m(
+      milling::limiting_depth(cut.structure, process_at(cut, spindle_speed_rpm), spindle_speed_rpm, options));
 }
 
 std::optional<double> answered_limit_m(const milling::LobeRow& row) {

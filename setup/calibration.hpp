@@ -12,6 +12,8 @@ struct Calibration {
   std::optional<int> folds;                 ///< parts of which each is predicted by the others; none: not done
   std::optional<double> spindle_speed_rpm;  ///< for which the next cut is chosen; none: that of the case, if it has
                                             ///< one, else the speed at which most is removed is to be known
+  std::optional<double> speed_exponent;     ///< standard deviation of q, by which coefficients fall with the speed as
+                                            ///< n^−q; none: 0.2, at most lobes.uncertainty.coefficients
   std::optional<double> risk;  ///< the highest probability of chatter of a productive cut; none: none is proposed
 };
 

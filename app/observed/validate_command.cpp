@@ -74,14 +74,21 @@ fs::path pictures_of(const fs::path& page) {
   return page.parent_path() / "pictures";
 }
 
+/// The text of not-held.md of the folder of cases, which ends the page: sets that lack what a case needs. Empty if
+/// there is none.
+std::string sets_not_held(const fs::path& cases) {
+  const fs::path file = cases / "not-held.md";
+  return fs::exists(file) ? "\n" + core::read_file(file) : "";
+}
+
 /// Paths and texts of the drawings and, last, of the page.
 using Files = std::vector<std::pair<fs::path, std::string>>;
 
-Files files_of(const fs::path& page, const std::vector<report::ValidatedCase>& all) {
+Files files_of(const fs::path& cases, const fs::path& page, const std::vector<report::ValidatedCase>& all) {
   Files files;
   for (const report::ValidatedCase& one : all)
     files.emplace_back(pictures_of(page) / report::chart_name(one), report::validation_chart(one));
-  files.emplace_back(page, report::validation_page(all));
+  files.emplace_back(page, report::validation_page(all) + sets_not_held(cases));
   return files;
 }
 
@@ -96,7 +103,7 @@ Validation validate_cases(const ValidateRequest& request, const RunCase& run_cas
     if (observed != nullptr)
       result.text += fmt::format("  {:<26} {}\n", source.name, report::share_text(observed->prediction));
   }
-  const Files files = files_of(request.page, all);
+  const Files files = files_of(request.cases, request.page, all);
   if (request.check) {
     for (const auto& [file, text] : files) {
       if (holds(file, text)) continue;

@@ -22,7 +22,8 @@ struct Validation {
 };
 
 /// Runs the cases of the folder that have [[observed]], in the order of their names, each into results/<case>, and
-/// writes the page and a drawing `validation-<case>.svg` in `pictures` beside it. Throws InputError if no case has
+/// writes the page and a drawing `validation-<case>.svg` in `pictures` beside it; not-held.md of the folder ends the
+/// page. Throws InputError if no case has
 /// cuts, and as `run_case`.
 [[nodiscard]] Validation validate_cases(const ValidateRequest& request, const RunCase& run_case);
 

@@ -28,8 +28,8 @@ std::vector<double> chatter_probabilities(const std::vector<Cut>& draws, const s
   core::Progress progress("probability of chatter", points.size());
   core::parallel_for(points.size(), [&](std::size_t i) {
     const auto chatters = std::ranges::count_if(draws, [&](const Cut& draw) {
-      return multiplier_at(draw.structure, draw.process, points[i].spindle_speed_rpm, points[i].depth_m, options)
-                 .modulus > 1.0;
+      const double rpm = points[i].spindle_speed_rpm;
+      return multiplier_at(draw.structure, process_at(draw, rpm), rpm, points[i].depth_m, options).modulus > 1.0;
     });
     probability[i] = static_cast<double>(chatters) / static_cast<double>(draws.size());
     progress.step();

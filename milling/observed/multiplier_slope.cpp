@@ -71,7 +71,8 @@ struct GainAt {
   complex<double> mu;
 
   [[nodiscard]] Eigen::MatrixXcd operator()(const Cut& cut) const {
-    const CutAtSpeed at_speed = cut_at_speed(cut.structure, cut.process, point.spindle_speed_rpm);
+    const CutAtSpeed at_speed =
+        cut_at_speed(cut.structure, process_at(cut, point.spindle_speed_rpm), point.spindle_speed_rpm);
     return loop_gain(discrete(at_speed, resolution, point.depth_m).loop, mu);
   }
 };
@@ -116,8 +117,9 @@ MultiplierSlope multiplier_slope(const Cut& nominal, const std::vector<Uncertain
                            std::to_string(here.structure.poles.size()) +
                            " as of the structure; give those of its nominal one");
   }
-  require_usable(here.process, {});
-  const CutAtSpeed cut = cut_at_speed(here.structure, here.process, point.spindle_speed_rpm);
+  const MillingProcess process = process_at(here, point.spindle_speed_rpm);
+  require_usable(process, {});
+  const CutAtSpeed cut = cut_at_speed(here.structure, process, point.spindle_speed_rpm);
   const Resolution resolution = finer(resolving(cut, point.depth_m));
   const DiscreteCut d = discrete(cut, resolution, point.depth_m);
   const Deciding deciding = deciding_of(cut, d, point.depth_m, here.structure.poles, poles);

@@ -63,6 +63,7 @@ Cut cut_at(const Cut& nominal, const std::vector<UncertainParameter>& parameters
   }
   const Index modes = nominal.structure.poles.size();
   ParameterChange change{Eigen::VectorXd::Zero(modes), Eigen::VectorXd::Zero(modes), Eigen::VectorXd::Zero(modes)};
+  double speed_exponent = nominal.speed_exponent;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const UncertainParameter& p = parameters[i];
     const double by = change_by(nominal.structure, p, z(static_cast<Index>(i)));
@@ -85,9 +86,18 @@ Cut cut_at(const Cut& nominal, const std::vector<UncertainParameter>& parameters
       case ParameterOf::K_a:
         change.K_a = by;
         break;
+      case ParameterOf::speed_exponent:
+        speed_exponent += p.spread * z(static_cast<Index>(i));
+        break;
     }
   }
-  return {changed(nominal.structure, change), changed(nominal.process, change)};
+  return {changed(nominal.structure, change), changed(nominal.process, change), speed_exponent, nominal.reference_rpm};
+}
+
+MillingProcess process_at(const Cut& cut, double spindle_speed_rpm) {
+  if (cut.speed_exponent == 0.0) return cut.process;
+  const double by = std::pow(spindle_speed_rpm / cut.reference_rpm, -cut.speed_exponent) - 1.0;
+  return changed(cut.process, {{}, {}, {}, by, by, by});
 }
 
 double value_of(const Cut& nominal, const UncertainParameter& parameter, double z) {
@@ -105,6 +115,8 @@ double value_of(const Cut& nominal, const UncertainParameter& parameter, double 
       return by * nominal.process.coefficients.K_r;
     case ParameterOf::K_a:
       return by * nominal.process.coefficients.K_a;
+    case ParameterOf::speed_exponent:
+      return nominal.speed_exponent + parameter.spread * z;
   }
   return by;
 }

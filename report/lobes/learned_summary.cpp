@@ -27,6 +27,8 @@ std::string name_of(milling::ParameterOf of) {
       return "K_r";
     case milling::ParameterOf::K_a:
       return "K_a";
+    case milling::ParameterOf::speed_exponent:
+      return "speed_exponent";
   }
   return "";
 }
@@ -55,6 +57,10 @@ milling::Score score_after(const std::vector<learning::LearnedCut>& cuts) {
 }
 
 std::string parameter_text(const LearnedParameterSummary& p) {
+  if (p.parameter == "speed_exponent") {
+    return fmt::format("      {:<26} {:>11.2f} to {:>11.2f}, moved {:+.2f} deviations; {:.2f} to {:.2f}\n", p.parameter,
+                       p.before, p.after, p.moved, p.relative_deviation_before, p.relative_deviation_after);
+  }
   const std::string of = p.mode_frequency_hz ? fmt::format(" at {:.1f} Hz", *p.mode_frequency_hz) : "";
   return fmt::format("      {:<26} {:>11.5g} to {:>11.5g}, moved {:+.2f} deviations; {:.1f} % to {:.1f} %\n",
                      p.parameter + of, p.before, p.after, p.moved, 100.0 * p.relative_deviation_before,

@@ -20,14 +20,16 @@ struct LearnedParameterSummary {
 
 template <class Visitor, Either<LearnedParameterSummary> Section>
 void fields(Visitor& visit, Section& entry) {
-  visit(Field{"parameter", Kind::text, "\"frequency\", \"damping_ratio\", \"mass\" of a mode, or a coefficient"},
+  visit(Field{"parameter", Kind::text,
+              "\"frequency\", \"damping_ratio\", \"mass\" of a mode, a coefficient, or \"speed_exponent\" of these"},
         entry.parameter);
   visit(Field{"mode_frequency_hz", Kind::frequency, "the mode's own frequency beforehand; null of a coefficient",
               Presence::or_null},
         entry.mode_frequency_hz);
   visit(Field{"before", Kind::ratio, "value beforehand: Hz, 1, share of the modal mass, N/m^2"}, entry.before);
   visit(Field{"after", Kind::ratio, "mean of the posterior, likewise"}, entry.after);
-  visit(Field{"relative_deviation_before", Kind::ratio, "standard deviation beforehand over the value"},
+  visit(Field{"relative_deviation_before", Kind::ratio,
+              "standard deviation beforehand over the value, of the speed exponent itself"},
         entry.relative_deviation_before);
   visit(Field{"relative_deviation_after", Kind::ratio, "the same of the posterior"}, entry.relative_deviation_after);
   visit(Field{"moved", Kind::ratio, "by how many of its standard deviations beforehand it moved"}, entry.moved);

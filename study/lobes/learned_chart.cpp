@@ -22,6 +22,8 @@ namespace {
 /// cuts shift modes by some percent. Chosen by the cuts of cases/hajdu-2020 that were left out, after 0.02 and 0.035
 /// had been seen (docs/theory/calibration.md).
 constexpr double heard_deviation = 0.05;
+/// Of the exponent by which coefficients fall with the speed, a choice: chips are hotter and softer in faster cuts.
+constexpr double usual_speed_exponent = 0.2;
 constexpr std::size_t limit_draws = 60, candidate_draws = 60;
 constexpr int limit_speeds = 40, candidate_speeds = 24, candidate_depths = 12;
 
@@ -149,19 +151,43 @@ std::vector<LearnedChart::Row> answered_rows(const std::vector<LimitsAtSpeed>& l
   return rows;
 }
 
+namespace {
+
+/// The geometric mean of the speeds of the cuts.
+double middle_speed_rpm(const std::vector<milling::ObservedCut>& cuts) {
+  double sum = 0.0;
+  for (const milling::ObservedCut& cut : cuts) sum += std::log(cut.spindle_speed_rpm);
+  return std::exp(sum / static_cast<double>(cuts.size()));
+}
+
+/// Adds the exponent by which the coefficients fall with the speed. Its deviation is [calibration]'s or, without that,
+/// usual_speed_exponent, at most what the coefficients are uncertain by: a speed e times as high then changes them by
+/// no more than that. Coefficients that are certain have none, nor does a model of most_parameters.
+void add_speed_exponent(learning::CutModel& model, const setup::CutSetup& source) {
+  if (!source.calibration || !source.lobes->robust || model.cuts.empty()) return;
+  const double of_coefficients = source.lobes->robust->uncertainty.coefficients;
+  const double spread = source.calibration->speed_exponent.value_or(std::min(usual_speed_exponent, of_coefficients));
+  if (!(spread > 0.0) || std::ssize(model.parameters) >= learning::most_parameters) return;
+  model.nominal.reference_rpm = middle_speed_rpm(model.cuts);
+  model.parameters.push_back({milling::ParameterOf::speed_exponent, -1, spread});
+}
+
+}  // namespace
+
 learning::CutModel cut_model(const setup::CutSetup& source, const milling::Cut& nominal,
                              const milling::StabilityOptions& options) {
   learning::CutModel model;
   model.nominal = nominal;
   if (source.lobes->robust)
     model.parameters = milling::uncertain_parameters(nominal, source.lobes->robust->uncertainty);
+  model.cuts = setup::all_cuts(source.observed);
+  add_speed_exponent(model, source);
   if (std::ssize(model.parameters) > learning::most_parameters) {
     throw core::InputError(
         fmt::format("calibration: {} parameters are uncertain, must be at most {}; set what is known in "
                     "[lobes.uncertainty] to 0, or give fewer modes (lobes.modes_up_to)",
                     model.parameters.size(), learning::most_parameters));
   }
-  model.cuts = setup::all_cuts(source.observed);
   model.options = options;
   model.frequency_deviation = heard_deviation;
   return model;

@@ -102,7 +102,10 @@ TEST_F(ObservedCommand, LearnsFromCuts) {
   const auto learned = chart()["learned"];
   EXPECT_TRUE(learned["converged"].get<bool>());
   EXPECT_EQ(learned["draws"], 160);
-  EXPECT_EQ(learned["parameters"].size(), 4u);
+  ASSERT_EQ(learned["parameters"].size(), 5u);
+  EXPECT_EQ(learned["parameters"][4]["parameter"], "speed_exponent");
+  EXPECT_EQ(learned["parameters"][4]["before"], 0.0);
+  EXPECT_EQ(learned["parameters"][4]["relative_deviation_before"], 0.1) << "no more than that of the coefficients";
   EXPECT_EQ(learned["before"]["right"], 0);
   EXPECT_GT(learned["after"]["right"], 0);
   ASSERT_TRUE(learned.contains("next_cut"));
@@ -146,8 +149,13 @@ TEST_F(ObservedCommand, WritesThePageThatItThenFindsTrue) {
   const Outcome drawn = command({"validate", "cases", "--page", path("docs/validation.md"), "--check", "-q"});
   write("docs/validation.md", "other\n");
   const Outcome differs = command({"validate", "cases", "--page", path("docs/validation.md"), "--check", "-q"});
+  write("cases/not-held.md", "## Not here\n\nA set without its depths.\n");
+  const Outcome ended = command({"validate", "cases", "--page", path("docs/validation.md"), "-q"});
   const Outcome none = command({"validate", path("docs"), "-q"});
   std::filesystem::current_path(before);
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_TRUE(core::read_file(temporary.path / "docs/validation.md")
+                  .ends_with("\n\n## Not here\n\nA set without its depths.\n"));
   EXPECT_EQ(written.code, 0) << written.err;
   EXPECT_NE(written.out.find("1 of 2 right"), std::string::npos) << written.out;
   EXPECT_NE(written.out.find("spaced "), std::string::npos) << written.out;

@@ -32,14 +32,16 @@ struct Machine {
 };
 
 /// `cuts` cuts at drawn speeds and depths; each outcome is drawn with the probability that the likelihood gives it at
-/// the true parameters, with κ = 0.1. Every second cut that chatters has its frequency, off by a hundredth.
-inline Machine drawn_machine(unsigned seed, int cuts) {
+/// the true parameters, with κ = 0.1. Every second cut that chatters has its frequency, off by a hundredth. With a
+/// `speed_exponent` above 0, its deviation, the coefficients fall with the speed.
+inline Machine drawn_machine(unsigned seed, int cuts, double speed_exponent = 0.0) {
   std::mt19937 random(seed);
   const auto uniform = [&] { return (static_cast<double>(random()) + 0.5) / 4294967296.0; };
   Machine machine;
   CutModel& model = machine.model;
   model.nominal = nominal_cut();
   model.parameters = milling::uncertain_parameters(model.nominal, {0.03, 0.2, 0.1, 0.15});
+  if (speed_exponent > 0.0) model.parameters.push_back({milling::ParameterOf::speed_exponent, -1, speed_exponent});
   model.options.depth_limit_m = 3e-3;
   machine.truth = milling::standard_normal(std::ssize(model.parameters), random);
   for (int i = 0; i < cuts; ++i) {

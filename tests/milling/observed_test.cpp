@@ -77,6 +77,24 @@ TEST(UncertainCut, ChangesOneParameterAndKeepsTheOthers) {
   EXPECT_THROW((void)cut_at(cut, parameters, Eigen::VectorXd::Zero(7)), core::InputError);
 }
 
+TEST(UncertainCut, HasCoefficientsThatFallWithTheSpeed) {
+  Cut cut = two_modes();
+  cut.reference_rpm = 8000.0;
+  const std::vector<UncertainParameter> parameters{{ParameterOf::speed_exponent, -1, 0.2}};
+  const Cut faster = cut_at(cut, parameters, Eigen::VectorXd::Constant(1, 1.5));
+  EXPECT_NEAR(value_of(cut, parameters[0], 1.5), 0.3, 1e-15);
+  EXPECT_EQ(faster.process.coefficients.K_t, cut.process.coefficients.K_t) << "at the reference";
+  EXPECT_NEAR(process_at(faster, 16000.0).coefficients.K_t, cut.process.coefficients.K_t * std::pow(2.0, -0.3), 1e-3);
+  EXPECT_NEAR(process_at(faster, 4000.0).coefficients.K_r, cut.process.coefficients.K_r * std::pow(2.0, 0.3), 1e-3);
+  EXPECT_EQ(process_at(cut, 4000.0).coefficients.K_t, cut.process.coefficients.K_t);
+  // The limit of a straight edge goes with 1/K, so that a cut of another speed is one of another depth.
+  const double by = std::pow(5200.0 / 8000.0, -0.3);
+  const auto slope = [&](const Cut& of, double depth) {
+    return multiplier_slope(of, {}, Eigen::VectorXd(), {5200.0, depth}, cut.structure.poles, false).log_modulus;
+  };
+  EXPECT_NEAR(slope(faster, 4e-4), slope(cut, 4e-4 * by), 1e-9);
+}
+
 TEST(UncertainCut, KeepsItsDampingRatiosBelowOne) {
   const Cut cut = two_modes();
   const auto parameters = uncertain_parameters(cut, {0.0, 1.0, 0.0, 0.0});
@@ -104,23 +122,25 @@ TEST(ChatterProbability, IsThatOfTheCoefficientWhereOnlyThisIsUncertain) {
 
 TEST(MultiplierSlope, IsTheDifferenceOfMultipliers) {
   const Cut cut = two_modes();
-  const auto parameters = uncertain_parameters(cut, {0.01, 0.1, 0.05, 0.1});
+  auto parameters = uncertain_parameters(cut, {0.01, 0.1, 0.05, 0.1});
+  parameters.push_back({ParameterOf::speed_exponent, -1, 0.2});
   StabilityOptions exact;
   exact.error_tolerance = 1e-8;
   for (const OperatingPoint point : {OperatingPoint{5200.0, 4e-4}, {6000.0, 2e-3}, {9100.0, 5e-3}}) {
     const auto multiplier = [&](const Eigen::VectorXd& z) {
       const Cut other = cut_at(cut, parameters, z);
-      return multiplier_at(other.structure, other.process, point.spindle_speed_rpm, point.depth_m, exact);
+      return multiplier_at(other.structure, process_at(other, point.spindle_speed_rpm), point.spindle_speed_rpm,
+                           point.depth_m, exact);
     };
     const MultiplierSlope slope =
-        multiplier_slope(cut, parameters, Eigen::VectorXd::Zero(8), point, cut.structure.poles, true);
-    const Multiplier here = multiplier(Eigen::VectorXd::Zero(8));
+        multiplier_slope(cut, parameters, Eigen::VectorXd::Zero(9), point, cut.structure.poles, true);
+    const Multiplier here = multiplier(Eigen::VectorXd::Zero(9));
     EXPECT_NEAR(slope.log_modulus, std::log(here.modulus), 1e-3);  // of one grid, as good as the search's second
     EXPECT_NEAR(slope.frequency_hz, here.chatter_frequency_hz, 1e-3 * here.chatter_frequency_hz);
-    for (Eigen::Index i = 0; i < 8; ++i) {
+    for (Eigen::Index i = 0; i < 9; ++i) {
       constexpr double h = 0.01;
-      const Multiplier up = multiplier(h * Eigen::VectorXd::Unit(8, i)),
-                       down = multiplier(-h * Eigen::VectorXd::Unit(8, i));
+      const Multiplier up = multiplier(h * Eigen::VectorXd::Unit(9, i)),
+                       down = multiplier(-h * Eigen::VectorXd::Unit(9, i));
       const double by = std::log(up.modulus / down.modulus) / (2.0 * h);
       EXPECT_NEAR(slope.log_modulus_by_z(i), by, 2e-3 * std::abs(by) + 1e-4) << i << " at " << point.spindle_speed_rpm;
       const double frequency_by = (up.chatter_frequency_hz - down.chatter_frequency_hz) / (2.0 * h);

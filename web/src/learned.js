@@ -54,6 +54,10 @@ const names = { frequency: 'frequency', damping_ratio: 'damping ratio', mass: 'm
 const units = { frequency: ' Hz' };
 
 function parameterRow(p) {
+  if (p.parameter === 'speed_exponent') {
+    const value = (v, deviation) => `${number(v, 2)} ± ${number(deviation, 2)}`;
+    return ['exponent q of the coefficients over the speed, n^−q', value(p.before, p.relative_deviation_before), value(p.after, p.relative_deviation_after), `${number(p.moved, 2)} deviations`];
+  }
   const of = isNumber(p.mode_frequency_hz) ? ` at ${number(p.mode_frequency_hz, 4)} Hz` : '';
   const scale = p.parameter in names ? 1 : 1e-6;
   const unit = p.parameter in names ? units[p.parameter] ?? '' : ' N/mm²';

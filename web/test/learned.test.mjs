@@ -24,6 +24,7 @@ function taught(change = () => {}) {
     parameters: [
       { parameter: 'frequency', mode_frequency_hz: 500, before: 500, after: 490, relative_deviation_before: 0.02, relative_deviation_after: 0.01, moved: -1 },
       { parameter: 'K_t', mode_frequency_hz: null, before: 6e8, after: 5.7e8, relative_deviation_before: 0.1, relative_deviation_after: 0.08, moved: -0.5 },
+      { parameter: 'speed_exponent', mode_frequency_hz: null, before: 0, after: 0.18, relative_deviation_before: 0.2, relative_deviation_after: 0.12, moved: 0.9 },
     ],
     before: share(1, 2), after: share(2, 2), contradictions: [{ spindle_speed_rpm: 1500, depth_m: 0.003, observed: 'stable', chatter_probability: 0.97 }],
     next_cut: { for_rpm: 2000, spindle_speed_rpm: 1800, depth_m: 0.0015, chatter_probability: 0.4, deviation_before: 0.12, deviation_after: 0.07 },
@@ -63,7 +64,8 @@ test('the learned chart lies beside the chart before, with a table of what moved
   assert.ok(list.some((t) => t.meta === 'limit 0 supported'));
   assert.deepEqual(Array.from(list.find((t) => t.meta === 'learned 0 median_m').y), [2.2, 2.2, 2.2]);
   assert.deepEqual(await table(page, 'What the cuts taught'), [
-    ['Parameter', 'Before', 'After', 'Moved by'], ['frequency at 500 Hz', '500 Hz ± 2 %', '490 Hz ± 1 %', '−1 deviations'], ['K_t', '600 N/mm² ± 10 %', '570 N/mm² ± 8 %', '−0.5 deviations']]);
+    ['Parameter', 'Before', 'After', 'Moved by'], ['frequency at 500 Hz', '500 Hz ± 2 %', '490 Hz ± 1 %', '−1 deviations'], ['K_t', '600 N/mm² ± 10 %', '570 N/mm² ± 8 %', '−0.5 deviations'],
+    ['exponent q of the coefficients over the speed, n^−q', '0 ± 0.2', '0.18 ± 0.12', '0.9 deviations']]);
   assert.deepEqual((await table(page, 'Cuts on the right side')).map((row) => row[1]), ['Right, 95 % interval', '1 of 2, 50 % (10 to 90 %)', '2 of 2, 100 % (10 to 90 %)']);
   assert.deepEqual((await table(page, 'Cuts that contradict the others'))[1], ['1500 rpm, 3 mm', 'seen stable', '97 %']);
 }));
