@@ -3,12 +3,26 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "mesh/surface/triangle_tree.hpp"
 
 namespace thinwall::mesh {
+
+namespace {
+
+/// The vertices that a surface's triangles use, ascending.
+std::vector<int> corners_of(const TriangleSurface& surface) {
+  std::vector<int> corners;
+  for (const auto& t : surface.triangles) corners.insert(corners.end(), t.begin(), t.end());
+  std::ranges::sort(corners);
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+}  // namespace
 
 double one_sided_distance(const TriangleSurface& a, const TriangleSurface& b, double spacing_m) {
   if (!(spacing_m > 0.0)) {
@@ -18,6 +32,8 @@ double one_sided_distance(const TriangleSurface& a, const TriangleSurface& b, do
   constexpr int finest = 64;  // samples along an edge; beyond, a large part would take minutes
   const TriangleTree tree(b);
   double farthest = 0.0;
+  for (const int v : corners_of(a))
+    farthest = std::max(farthest, tree.nearest(a.vertices[static_cast<std::size_t>(v)]).distance_m);
   for (const auto& t : a.triangles) {
     core::check_interrupt();
     const auto corner = [&](std::size_t k) -> const Eigen::Vector3d& {
@@ -25,6 +41,12 @@ double one_sided_distance(const TriangleSurface& a, const TriangleSurface& b, do
     };
     double longest = 0.0;
     for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, (corner(k) - corner((k + 1) % 3)).norm());
+    if (longest <= 2.0 * spacing_m) {
+      for (std::size_t k = 0; k < 3; ++k)
+        farthest = std::max(farthest, tree.nearest(0.5 * (corner(k) + corner((k + 1) % 3))).distance_m);
+      farthest = std::max(farthest, tree.nearest((corner(0) + corner(1) + corner(2)) / 3.0).distance_m);
+      continue;
+    }
     // A multiple of six has the middles of the edges and the centroid on it.
     const int n = std::clamp(6 * static_cast<int>(std::ceil(longest / spacing_m / 6.0)), 6, finest - finest % 6);
     for (int i = 0; i <= n; ++i) {

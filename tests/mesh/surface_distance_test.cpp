@@ -37,6 +37,18 @@ TEST(SurfaceDistance, OfAPolygonToItsArcIsTheSagitta) {
   EXPECT_NEAR(surface_distance(fine, coarse, 0.001), sagitta, 0.02 * sagitta);
 }
 
+// A coarse spacing asks at corners, middles of edges and centroids only, which see a chord's sagitta and a raised
+// corner.
+TEST(SurfaceDistance, OfSmallTrianglesIsThatOfTheirCornersMiddlesAndCentres) {
+  const CylinderSector sector{0.1, 0.003, 1.0, 0.02};
+  const TriangleSurface fine = surface(sector, 0.0005), coarse = surface(sector, 0.0103);
+  const double own = 0.103 * (1.0 - std::cos(0.5 / 206.0));  // of the fine one, of 206 cells
+  EXPECT_NEAR(one_sided_distance(coarse, fine, 0.1), 0.103 * (1.0 - std::cos(0.05)), own);
+  TriangleSurface peak = block_surface({0.1, 0.1, 0.01}, 0.01);
+  peak.vertices.front() -= Eigen::Vector3d(0.003, 0.0, 0.0);
+  EXPECT_NEAR(one_sided_distance(peak, block_surface({0.1, 0.1, 0.01}, 0.1), 0.1), 0.003, 1e-15);
+}
+
 TEST(SurfaceDistance, OfABlocksMeshToTheBlockIsNothing) {
   const TetMesh mesh = kuhn_box({0.3, 0.2, 0.1}, {3, 2, 2});
   const TriangleSurface skin = boundary_surface(mesh);
