@@ -26,8 +26,12 @@ constexpr double share_of_wave = 0.15;
 constexpr double volume_of_chords = 0.08;         // by which straight elements may err that are curved afterwards
 constexpr double deviation_of_chords = 0.2;       // of the wall thickness, likewise
 constexpr double roundest = 1.4;                  // circumradius over shortest edge of elements that need not be flat
-constexpr double most_of_round_body = 4000.0;     // triangles
-constexpr double most_off_of_round_body = 0.02;   // by volume, which its estimate tells
+constexpr double size_of_round_parts = 0.8;       // of the mean wall thickness
+constexpr double largest_of_round_parts = 1.3;    // likewise, of those that would take too many triangles
+constexpr double most_of_round_body = 6000.0;     // triangles
+constexpr double share_of_curves = 0.4;           // of the tolerance, by which the volume of curved elements may err
+constexpr double most_off = 0.02;                 // by volume, of curved elements that are taken nevertheless
+constexpr double most_straight = 30000.0;         // elements, about, beyond which they are
 constexpr double sharp_rad = 0.5235987755982988;  // 30°
 
 void validate(const ClosedPartOptions& o) {
@@ -74,14 +78,15 @@ mesh::SurfaceMeshOptions mesh_options(const mesh::TriangleSurface& surface, cons
 }
 
 /// The size of isotropic elements of a body that is round rather than thin, 0.8 times its mean wall thickness 2 V / A,
-/// m. Long elements between its sides would be spoilt when both are curved. 0 for a body that would take thousands of
-/// them.
+/// m, or more, to 1.3 times it, where there would be too many. Long elements between its sides would be spoilt when
+/// both are curved. 0 for a body that would take too many even so.
 double size_of_round_body(const mesh::TriangleSurface& surface) {
   double area = 0.0;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t)
     area += mesh::area_vector(surface, static_cast<int>(t)).norm();
-  const double size = 0.8 * 2.0 * mesh::volume(surface) / area;
-  return area < most_of_round_body * 0.433 * size * size ? size : 0.0;  // √3/4 of its square is a triangle's area
+  const double thickness = 2.0 * mesh::volume(surface) / area;
+  const double least = std::sqrt(area / (0.433 * most_of_round_body));  // √3/4 of its square is a triangle's area
+  return least > largest_of_round_parts * thickness ? 0.0 : std::max(least, size_of_round_parts * thickness);
 }
 
 /// The options of the mesher in successive attempts for elements that are curved afterwards, whose chords may lie far
@@ -124,34 +129,59 @@ FirstMesh straight_mesh(const mesh::TriangleSurface& surface, const ClosedPartOp
   return {options.divided ? options.divided(std::move(result.mesh)) : std::move(result.mesh), std::move(fit)};
 }
 
-/// The mesh of a level with curved elements whose volume keeps its share of the tolerance. If no attempt does, the best
-/// one for a round body, which straight elements would follow by very many, and otherwise none. Empty, too, if no
-/// mesher succeeds.
-std::optional<FirstMesh> curved_mesh(const mesh::TriangleSurface& surface, const mesh::SmoothPatches& patches,
-                                     const ClosedPartOptions& options, int level) {
-  const double wanted = mesh::volume(surface), bound = share_of_surface * options.tolerance;
-  const double size_of_round = size_of_round_body(surface);
-  std::optional<FirstMesh> best;
-  for (const auto& attempt : attempts_with_chords(mesh_options(surface, options, level), size_of_round)) {
+/// A mesh with curved elements.
+struct CurvedMesh {
+  FirstMesh mesh;
+  double chords_off = 0.0;  ///< by volume, relative, of the straight elements between its vertices
+  bool is_small = true;     ///< order 3 can be solved on it
+  [[nodiscard]] double off() const { return std::abs(mesh.fit.volume_error_relative); }
+  [[nodiscard]] bool is_better_than(const CurvedMesh& other) const {
+    return is_small != other.is_small ? is_small : off() < other.off();
+  }
+};
+
+/// The mesh of one attempt, with its elements on the surface.
+CurvedMesh curved_mesh(const mesh::TriangleSurface& surface, const mesh::SmoothPatches& patches,
+                       const std::shared_ptr<const mesh::AnalysedSurface>& analysed, const ClosedPartOptions& options,
+                       const mesh::SurfaceMeshOptions& attempt, int level) {
+  auto meshers = mesh::volume_meshers(surface, attempt, analysed);
+  meshers.pop_back();  // isotropic elements of thin walls would be too many
+  mesh::SurfaceMeshed chords = mesh::mesh_closed_surface(surface, attempt, meshers);
+  mesh::TetMesh mesh = mesh::fitted_beneath_curves(patches, std::move(chords.mesh));
+  auto shape = std::make_shared<const CubicShape>(curved_onto(patches, mesh, first_order_on(mesh, options)));
+  const double error = shape->volume_m3 / mesh::volume(surface) - 1.0;
+  SurfaceFit fit{level, std::move(chords.mesher), error, chords.surface_distance_m, std::move(chords.failures)};
+  const bool is_small = options.largest_dofs == 0 || 3 * mesh::lagrange_node_count(mesh, 3) <= options.largest_dofs;
+  return {{std::move(mesh), std::move(fit), std::move(shape)}, std::abs(chords.volume_error_relative), is_small};
+}
+
+/// The mesh of a level with curved elements: that of the first attempt whose volume keeps its share of the tolerance,
+/// or of the one whose volume is the best, of those with few enough elements if there are such. Empty if no mesher
+/// succeeds.
+std::optional<CurvedMesh> best_curved_mesh(const mesh::TriangleSurface& surface, const mesh::SmoothPatches& patches,
+                                           const ClosedPartOptions& options, int level) {
+  const auto analysed = mesh::analysed_surface(surface, mesh::SurfaceSize{}.sharp_angle_rad);
+  std::optional<CurvedMesh> best;
+  for (const auto& attempt : attempts_with_chords(mesh_options(surface, options, level), size_of_round_body(surface))) {
     try {
-      auto meshers = mesh::volume_meshers(surface, attempt);
-      meshers.pop_back();  // isotropic elements of thin walls would be too many
-      mesh::SurfaceMeshed chords = mesh::mesh_closed_surface(surface, attempt, meshers);
-      mesh::TetMesh mesh = mesh::fitted_beneath_curves(patches, std::move(chords.mesh));
-      auto shape = std::make_shared<const CubicShape>(curved_onto(patches, mesh));
-      const double error = shape->volume_m3 / wanted - 1.0;
-      if (best && std::abs(best->fit.volume_error_relative) <= std::abs(error)) continue;
-      best = FirstMesh{std::move(mesh),
-                       {level, std::move(chords.mesher), error, chords.surface_distance_m, std::move(chords.failures)},
-                       std::move(shape)};
-      if (std::abs(error) <= bound) break;
+      CurvedMesh mesh = curved_mesh(surface, patches, analysed, options, attempt, level);
+      if (!best || mesh.is_better_than(*best)) best = std::move(mesh);
+      if (best->is_small && best->off() <= share_of_curves * options.tolerance) break;
     } catch (const core::NumericalError&) {
       core::check_interrupt();
     }
   }
-  const double most = size_of_round > 0.0 ? most_off_of_round_body : bound;
-  if (best && std::abs(best->fit.volume_error_relative) > most) best.reset();
   return best;
+}
+
+/// True if curved elements are to be taken rather than straight ones, which would have to be smaller by the square root
+/// of what the volume between the vertices is off, in both directions of the surface.
+bool suffices(const CurvedMesh& curved, const mesh::TriangleSurface& surface, const ClosedPartOptions& options) {
+  if (curved.off() <= share_of_curves * options.tolerance) return true;
+  if (curved.off() > most_off) return false;
+  const double smaller = curved.chords_off / (share_of_surface * options.tolerance);
+  return size_of_round_body(surface) > 0.0 ||
+         smaller * static_cast<double>(curved.mesh.mesh.tets.size()) > most_straight;
 }
 
 /// The patches of a surface; null if all of them are planar, so that straight elements follow them.
@@ -163,12 +193,19 @@ std::shared_ptr<const mesh::SmoothPatches> curved_patches(const mesh::TriangleSu
 }
 
 /// The mesh of a level: curved where the surface is and the part has one material, for elements of several are cut
-/// after they are made; straight where that fails.
-FirstMesh mesh_of_level(const mesh::TriangleSurface& surface, const mesh::SmoothPatches* curved,
+/// after they are made; straight where that fails. Where no straight mesh can be had either, the best curved one.
+FirstMesh mesh_of_level(const mesh::TriangleSurface& surface, const mesh::SmoothPatches* patches,
                         const ClosedPartOptions& options, int level) {
-  if (curved != nullptr)
-    if (auto mesh = curved_mesh(surface, *curved, options, level)) return std::move(*mesh);
-  return straight_mesh(surface, options, level);
+  std::optional<CurvedMesh> curved;
+  if (patches != nullptr) curved = best_curved_mesh(surface, *patches, options, level);
+  if (curved && suffices(*curved, surface, options)) return std::move(curved->mesh);
+  try {
+    return straight_mesh(surface, options, level);
+  } catch (const core::NumericalError&) {
+    core::check_interrupt();
+    if (!curved || curved->off() > volume_of_chords) throw;
+  }
+  return std::move(curved->mesh);
 }
 
 }  // namespace
@@ -184,6 +221,11 @@ SolidPart solid_part(const mesh::TriangleSurface& surface, const Material& mater
     const auto own =
         std::ranges::find_if(meshes, [&](const FirstMesh& m) { return m.mesh.tets == mesh.tets && m.shape; });
     return own == meshes.end() ? Shaping{} : shaping_by(own->shape);
+  };
+  part.shape_error = [wanted = mesh::volume(surface), density = material.density_kg_m3,
+                      is_straight = static_cast<bool>(options.materials)](const Model& model) {
+    const double volume_m3 = is_straight ? mesh::volume(model.mesh) : model.mass.mass_kg / density;
+    return std::abs(volume_m3 / wanted - 1.0);
   };
   const auto curved = options.materials ? nullptr : curved_patches(surface);
   part.mesh = [&surface, &options, &meshes, curved](int level) {
@@ -214,10 +256,10 @@ bool has_reentrant_edge(const mesh::TriangleSurface& surface) {
 
 namespace {
 
-/// The options of the refinement; its share of the tolerance is what the surface leaves.
+/// The options of the refinement.
 ToleranceOptions steps_of(const mesh::TriangleSurface& surface, const ClosedPartOptions& options) {
   ToleranceOptions steps;
-  steps.tolerance = (1.0 - share_of_surface) * options.tolerance;
+  steps.tolerance = options.tolerance;
   steps.modes = options.modes;
   steps.points = options.points;
   steps.points_hold = options.points_hold;
@@ -227,12 +269,19 @@ ToleranceOptions steps_of(const mesh::TriangleSurface& surface, const ClosedPart
   steps.reentrant_edges = has_reentrant_edge(surface);
   steps.memory_limit_bytes = options.memory_limit_bytes;
   steps.largest_dofs = options.largest_dofs;
+  steps.first_dofs = options.first_dofs;
   steps.time_budget_s = options.time_budget_s;
   steps.solved = options.solved;
   return steps;
 }
 
 }  // namespace
+
+int first_order_on(const mesh::TetMesh& mesh, const ClosedPartOptions& options) {
+  return first_order_on(mesh, ToleranceOptions{.first_order = options.first_order,
+                                               .largest_dofs = options.largest_dofs,
+                                               .first_dofs = options.first_dofs});
+}
 
 FirstMesh first_mesh(const mesh::TriangleSurface& surface, const ClosedPartOptions& options) {
   validate(options);
@@ -249,11 +298,8 @@ ClosedPart refine_closed_part(const mesh::TriangleSurface& surface, const Materi
   Refined refined = refine_to_tolerance(solid_part(surface, material, options, meshes), steps);
   ClosedPart result{std::move(refined), {}, 0.0, false};
   for (FirstMesh& mesh : meshes) result.fits.push_back(std::move(mesh.fit));
-  const int level = result.refined.level;
-  const auto solved =
-      std::find_if(result.fits.begin(), result.fits.end(), [&](const SurfaceFit& fit) { return fit.level == level; });
-  result.frequency_error = result.refined.estimate.frequency + std::abs(solved->volume_error_relative);
-  result.met = result.frequency_error <= options.tolerance && result.refined.estimate.receptance <= options.tolerance;
+  result.frequency_error = result.refined.estimate.frequency;
+  result.met = result.refined.estimate.met;
   return result;
 }
 

@@ -14,8 +14,7 @@
 
 namespace thinwall::fem {
 
-/// The share of the tolerance on frequencies that is reserved for the difference between the volumes of the mesh and of
-/// the surface.
+/// The share of the tolerance on frequencies by which the volume of straight elements may differ from the surface's.
 inline constexpr double share_of_surface = 0.2;
 
 /// The fit of the elements to the surface at one level.
@@ -36,8 +35,8 @@ struct FirstMesh {
 
 /// Options of refine_closed_part().
 struct ClosedPartOptions {
-  /// Tolerance on frequencies, relative, 1e-3 to 0.1. The part share_of_surface of it is for the volume, by
-  /// which the elements do not follow the surface; the rest is for the elements.
+  /// Tolerance on frequencies, relative, 1e-3 to 0.1: on the sum of the error of the elements and the share of the
+  /// volume by which they do not follow the surface.
   double tolerance = 1e-2;
   ModeOptions modes{.count = 5, .up_to_hz = {}};
   std::vector<Support> supports;   ///< empty for a free part
@@ -50,6 +49,7 @@ struct ClosedPartOptions {
   int last_order = 6;                                          ///< last order of a level; above first_order, to 6
   int levels = 1;                      ///< number of levels, 1 to 4; each has five times as many elements as the last
   std::int64_t largest_dofs = 400000;  ///< no model with more is solved; 0: no bound
+  std::int64_t first_dofs = 150000;    ///< as in ToleranceOptions, so that the first answer takes seconds
   double memory_limit_bytes = 0.0;     ///< limit for a factor; 0: the memory that is left
   double time_budget_s = 0.0;          ///< as in ToleranceOptions
   std::function<void(const RefinementStep&)> solved{};  ///< as in ToleranceOptions
@@ -63,8 +63,8 @@ struct ClosedPartOptions {
 struct [[nodiscard]] ClosedPart {
   Refined refined;
   std::vector<SurfaceFit> fits;  ///< one for each level meshed; not all need have been solved
-  /// The estimated relative error of frequencies, from the elements (refined.estimate) and the surface: a wall whose
-  /// volume is too small by a share bends at frequencies lower by the same share.
+  /// The estimated relative error of frequencies, that of refined.estimate, from the elements and the surface: a wall
+  /// whose volume is too small by a share bends at frequencies lower by the same share.
   double frequency_error = 0.0;
   /// True if frequency_error and the estimated error of receptances are within the tolerance. If not, refined.estimate
   /// says what prevented it, if it is no lack of levels.
@@ -75,17 +75,21 @@ struct [[nodiscard]] ClosedPart {
 /// wall), on plane faces at least 0.15 bending waves of the highest of `count` modes where there are no layers, divided
 /// by 1.5^level, `level` graded layers beside sharp edges (one more if a support ends within a face) and a turning
 /// angle of 0.5 / 2^level rad along an edge. Elements of a part of one material follow curved patches of the surface by
-/// their shape (curved_onto()): their chords may lie a fifth of the wall off it. Until the volume is right to 0.2 ·
+/// their shape (curved_onto()): their chords may lie a fifth of the wall off it. Until the volume is right to 0.4 ·
 /// tolerance, a body that is round rather than thin gets isotropic elements, and then chords are half as far off and
 /// turn 0.7 times as far. Where that fails, and with several materials, elements are straight, and the turning angle is
-/// as small as the volume requires; of a round body the best curved mesh is taken. If a finer level cannot
-/// be meshed, straight elements of the first level made 0.7^level times as large are used instead. Each mesh is
-/// appended to `meshes`, which must outlive the part, as must `surface` and `options`.
+/// as small as 0.2 · tolerance on the volume requires; of a round body, and where these would be tens of thousands, or
+/// cannot be made, the best curved mesh is taken, whose error the estimate tells. If a finer level cannot be meshed,
+/// straight elements of the first level made 0.7^level times as large are used instead. Each mesh is appended to
+/// `meshes`, which must outlive the part, as must `surface` and `options`.
 [[nodiscard]] SolidPart solid_part(const mesh::TriangleSurface& surface, const Material& material,
                                    const ClosedPartOptions& options, std::vector<FirstMesh>& meshes);
 
 /// True if two faces meet at a re-entrant edge, which turns inwards by more than 30°.
 [[nodiscard]] bool has_reentrant_edge(const mesh::TriangleSurface& surface);
+
+/// The first order that refine_closed_part() solves on its first mesh, first_order_on() by its options.
+[[nodiscard]] int first_order_on(const mesh::TetMesh& mesh, const ClosedPartOptions& options);
 
 /// The first mesh of refine_closed_part(), which solves nothing. Throws what that throws for options, surface and mesh.
 [[nodiscard]] FirstMesh first_mesh(const mesh::TriangleSurface& surface, const ClosedPartOptions& options);

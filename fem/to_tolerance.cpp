@@ -205,6 +205,7 @@ struct Refinement {
   Estimate estimate;
   std::optional<Found> now;       // the last solution
   std::optional<Found> better{};  // one of the level before, while its error is smaller
+  int usual_order = 0;            // the higher one of the first two orders that were asked for
 };
 
 /// The best solution with its estimated errors.
@@ -237,7 +238,12 @@ std::pair<Errors, Errors> compared(Refinement& r, int level, const Solution& bel
   RefinementStep step{level, model.nodes.order, model.K.rows(), frequency_change(below.modes, above.modes), {}};
   compare_receptances(below.responses, above.responses, above.modes, r.options.points, step);
   add_step(r, std::move(step));
-  return errors_of_last_two(r.estimate.steps, r.exponent);
+  auto errors = errors_of_last_two(r.estimate.steps, r.exponent);
+  if (r.part.shape_error) {
+    errors.first.frequency += r.part.shape_error(below.model);
+    errors.second.frequency += r.part.shape_error(above.model);
+  }
+  return errors;
 }
 
 /// Solves the first two orders on a mesh, the higher one first: the modes of the lower one, which only the estimate
@@ -296,11 +302,12 @@ void raise_order(Refinement& r) {
   }
 }
 
-/// True if raising the order on this mesh may meet the tolerance. Away from re-entrant edges one order reduces the
-/// error by a factor of ten, at most thirty. Beside them the orders left reduce it at best by q² each, with q the ratio
-/// of the last two changes on this mesh; by a factor of five each before that ratio is known (thirteen by two orders
-/// was seen).
+/// True if raising the order on this mesh may meet the tolerance, or if it is below the usual one. Away from re-entrant
+/// edges one order reduces the error by a factor of ten, at most thirty. Beside them the orders left reduce it at best
+/// by q² each, with q the ratio of the last two changes on this mesh; by a factor of five each before that ratio is
+/// known (thirteen by two orders was seen).
 bool orders_may_do(const Refinement& r) {
+  if (r.now->solution.model.nodes.order < r.usual_order) return true;
   const double error = r.now->errors.worst();
   if (!r.options.reentrant_edges) return error <= 30.0 * r.options.tolerance;
   const auto change = [](const RefinementStep& s) {
@@ -383,23 +390,34 @@ void refine_in_time(Refinement& r, double seconds_gone) {
 
 }  // namespace
 
+int first_order_on(const mesh::TetMesh& mesh, const ToleranceOptions& options) {
+  const auto is_small = [&](int order) {
+    return 3 * mesh::lagrange_node_count(mesh, order) <= options.first_dofs && fits(mesh, order, options);
+  };
+  int first = options.first_order;
+  while (options.first_dofs > 0 && first > 1 && !is_small(first + 1)) --first;
+  return first;
+}
+
 void require_fit(const mesh::TetMesh& mesh, const ToleranceOptions& options) {
-  const int order = options.first_order + 1;
+  const int order = first_order_on(mesh, options) + 1;
   if (fits(mesh, order, options)) return;
   throw core::InputError("the coarsest mesh has " + std::to_string(3 * mesh::lagrange_node_count(mesh, order)) +
                          " degrees of freedom at order " + std::to_string(order) + ", more than the bound of " +
-                         std::to_string(options.largest_dofs) +
-                         "; allow more, lower the first order, or simplify the part");
+                         std::to_string(options.largest_dofs) + "; allow more, or simplify the part");
 }
 
-Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& options) {
+Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& asked) {
   using Clock = std::chrono::steady_clock;
-  validate(options);
+  validate(asked);
   const auto start = Clock::now();
   mesh::TetMesh mesh = part.mesh(0);
+  ToleranceOptions options = asked;
+  options.first_order = first_order_on(mesh, asked);
   require_fit(mesh, options);
   Refinement r{part, options, exponents(part, materials_of(part, mesh), options), {}, {}, {}};
   r.estimate.tolerance = options.tolerance;
+  r.usual_order = asked.first_order + 1;
   begin_level(r, 0, std::move(mesh));
   refine_in_time(r, std::chrono::duration<double>(Clock::now() - start).count());
   return finished(std::move(r));

@@ -24,6 +24,7 @@ struct SolidPart {
   Attachments attachments{};
   std::function<Materials(const mesh::TetMesh&)> materials{};  ///< used instead of material, if set
   std::function<Shaping(const mesh::TetMesh&)> shaping{};      ///< used instead of shape, if set
+  std::function<double(const Model&)> shape_error{};           ///< of a model's frequencies, relative, by its shape
 };
 
 /// One solution on the way: its size, and its difference from the one before it on the same mesh.
@@ -49,7 +50,9 @@ struct ToleranceOptions {
   bool reentrant_edges = false;     ///< true if the part has a re-entrant edge, beside which errors fall more slowly
   double memory_limit_bytes = 0.0;  ///< limit for a factor; 0: the memory that is left
   std::int64_t largest_dofs = 0;    ///< no model with more rows than this before supports is solved; 0: no bound
-  double time_budget_s = 0.0;       ///< wall time after which nothing more is solved than the first two orders; 0: none
+  std::int64_t first_dofs =
+      0;                       ///< first_order is lowered, to 1 at least, until the next one has no more rows; 0: never
+  double time_budget_s = 0.0;  ///< wall time after which nothing more is solved than the first two orders; 0: none
   std::function<void(const RefinementStep&)> solved{};  ///< is told of each solution as soon as it is known, if set
 };
 
@@ -62,7 +65,7 @@ struct ToleranceOptions {
 /// error, which falls by thirty an order. Otherwise, and at least, r = 1/2, because the law does not hold at low
 /// orders; with elements graded to all edges r is smaller.
 struct Estimate {
-  double frequency = 0.0;          ///< largest relative error
+  double frequency = 0.0;          ///< largest relative error, that of SolidPart::shape_error included
   double receptance = 0.0;         ///< largest error of a receptance by the largest magnitude; 0 without points
   double entry = 0.0;              ///< largest error of a receptance by its own magnitude; held to no tolerance
   std::string worst_receptance{};  ///< name of the receptance of that error, "P.x" or "P.x to Q.z"
@@ -87,7 +90,13 @@ struct [[nodiscard]] Refined {
   int level = 0;  ///< level of its mesh; not the last one of the steps where that one's error is larger
 };
 
-/// Throws InputError if the first two orders on the coarsest mesh exceed options.largest_dofs.
+/// The lower of the first two orders that refine_to_tolerance() solves on the coarsest mesh: options.first_order, or,
+/// if options.first_dofs is not 0, the highest order below it, 1 at least, for which the next one has no more rows than
+/// first_dofs and largest_dofs.
+[[nodiscard]] int first_order_on(const mesh::TetMesh& mesh, const ToleranceOptions& options);
+
+/// Throws InputError if the first two orders on the coarsest mesh, from first_order_on() on, exceed
+/// options.largest_dofs.
 void require_fit(const mesh::TetMesh& mesh, const ToleranceOptions& options);
 
 /// Solves a part to a tolerance. The order is raised on a mesh, beginning with first_order, whose modes are made from
@@ -97,7 +106,8 @@ void require_fit(const mesh::TetMesh& mesh, const ToleranceOptions& options);
 /// is not if it would be in vain: the changes of one order on two successive levels have the ratio q, at most 1, and an
 /// error e is at best e q²ⁿ after the n levels left, for convergence may become faster; more than twice the tolerance
 /// ends the refinement. Orders are judged likewise beside re-entrant edges, by the ratio of two successive changes on
-/// one mesh. A solution after the first two that fails, for memory, for time_budget_s or for its mesh, ends the
+/// one mesh; those up to first_order + 1 are taken in any case where they were lowered. A solution after the first two
+/// that fails, for memory, for time_budget_s or for its mesh, ends the
 /// refinement, too; the result is the solution of the least estimated error. Receptances between the points are
 /// compared entry by entry, relative to the largest √(B_ii B_jj), which is held to the tolerance, and relative to each
 /// entry's own, where B_ii is the sum of the magnitudes of all modes' contributions to the direct receptance; at zero

@@ -18,6 +18,7 @@ namespace {
 constexpr double tets_per_cube = 8.485281374238570;
 constexpr double most_tets = 2e7;
 constexpr double most_dofs = 5e6;
+constexpr double most_first_dofs = 1e6;  // at order 2, of a first mesh; an estimate, and fewer are solved
 
 /// Parts that TetGen meshes: boxes with a given element size.
 bool by_tetgen(const setup::Part& part) {
@@ -76,26 +77,41 @@ double area_of(const mesh::TriangleSurface& surface) {
 }
 
 /// Twice as many as an even layer of triangles of the usual size (mesh::SurfaceSize) on both sides of a wall, three
-/// tetrahedra for two triangles, as edges are lined with layers; five times as many on the second level, which edges
-/// that turn inwards call for.
-double elements_in_surface(const setup::Part& part) {
+/// tetrahedra for two triangles, as edges are lined with layers.
+double elements_in_first_mesh(const setup::Part& part) {
   const mesh::SurfaceRepair& imported = *part.imported->surface;
   const double area = area_of(imported.surface), wall = 2.0 * imported.volume_m3 / area;
   const double size = part.mesh.element_size.value_or(std::min(9.0 * wall, part.imported->box.diagonal().norm() / 8.0));
-  const bool finer = !part.mesh.element_size && fem::has_reentrant_edge(imported.surface);
-  return (finer ? 5.0 : 1.0) * 2.0 * 1.5 * area / (0.433 * size * size);
+  return 2.0 * 1.5 * area / (0.433 * size * size);
 }
 
-/// Walls so thin that elements of their size are too many: most often the unit is another than stated.
+/// Five times as many on the second level, which edges that turn inwards call for.
+double elements_in_surface(const setup::Part& part) {
+  const bool finer = !part.mesh.element_size && fem::has_reentrant_edge(part.imported->surface->surface);
+  return (finer ? 5.0 : 1.0) * elements_in_first_mesh(part);
+}
+
+/// The degrees of freedom of so many elements. A tetrahedral mesh of a thin wall has about 0.3 vertices, 1.6 edges and
+/// 2.3 faces an element.
+double dofs_of(double elements, int order) {
+  const double p = order;
+  return 3.0 * elements * (0.3 + 1.6 * (p - 1) + 2.3 * (p - 1) * (p - 2) / 2 + (p - 1) * (p - 2) * (p - 3) / 6);
+}
+
+/// Walls so thin that elements of their size are too many: most often the unit is another than stated. A part that is
+/// solved to a tolerance has an answer if its first mesh can be solved at order 2.
 void check_surface_size(const Case& source, Findings& findings) {
   const setup::Part& part = *source.part;
-  const double dofs = estimate_size(source).dofs;
-  if (!(dofs > most_dofs)) return;
+  const bool to_tolerance = !part.mesh.element_size && !part.mesh.order;
+  const double dofs = to_tolerance ? dofs_of(elements_in_first_mesh(part), 2) : estimate_size(source).dofs;
+  const double most = to_tolerance ? most_first_dofs : most_dofs;
+  if (!(dofs > most)) return;
   const mesh::SurfaceRepair& imported = *part.imported->surface;
   const auto length = [](double value) { return core::readable_text(value, core::kind::length); };
   const std::string wall = "walls of " + length(2.0 * imported.volume_m3 / area_of(imported.surface)) + " on the whole";
-  const std::string many =
-      "about " + core::readable_text(dofs, core::kind::number) + " degrees of freedom, at most 5e+06 are solved; ";
+  const std::string many = "about " + core::readable_text(dofs, core::kind::number) + " degrees of freedom" +
+                           (to_tolerance ? " at order 2" : "") + ", at most " +
+                           core::readable_text(most, core::kind::number) + " are solved; ";
   if (part.mesh.element_size) {
     findings.report("part.mesh.element_size",
                     length(*part.mesh.element_size) + " would make " + many + "take larger elements or a lower order");
@@ -123,10 +139,7 @@ setup::PartSize estimate_size(const Case& source) {
       : setup::from_file(part)                    ? elements_in_surface(part)
       : by_tetgen(part) ? std::max(6.0, tets_in({Eigen::Vector3d::Zero(), setup::box_size(part)}, grading_of(source)))
                         : static_cast<double>(setup::graded_mesh(source, 0).tets.size());
-  // A tetrahedral mesh of a thin wall has about 0.3 vertices, 1.6 edges and 2.3 faces an element.
-  const double p = size.order;
-  size.dofs =
-      3.0 * size.elements * (0.3 + 1.6 * (p - 1) + 2.3 * (p - 1) * (p - 2) / 2 + (p - 1) * (p - 2) * (p - 3) / 6);
+  size.dofs = dofs_of(size.elements, size.order);
   // 40 000 DOFs take some three seconds with factorisation, modes and reduction; the factor of a wall grows as n^1.3.
   size.seconds = 3.0 * std::pow(size.dofs / 4e4, 1.3);
   return size;

@@ -39,28 +39,11 @@ void validate(const SurfaceMeshOptions& options) {
   }
 }
 
-/// Data that all attempts at a surface share.
-struct Analysed {
-  SurfaceFeatures features;
-  std::vector<double> thickness;
-  double median = 0.0;  // wall thickness beneath half of the surface, m
-};
-
-/// The features and wall thicknesses of a surface.
-Analysed analysed(const TriangleSurface& surface, const SurfaceSize& size) {
-  Analysed result;
-  result.features = surface_features(surface, size.sharp_angle_rad);
-  result.thickness = wall_thickness(surface, TriangleTree(surface));
-  std::vector<int> all(surface.triangles.size());
-  std::iota(all.begin(), all.end(), 0);
-  result.median = median_thickness(surface, result.thickness, all);
-  return result;
-}
-
 /// The surface remeshed with smaller and smaller turns until the volume is kept. On a bent wall the error of the volume
 /// is turn²/6, because both sides move together. On a twisted wall each side errs separately, up or down with the
 /// direction of every diagonal; the sum then decreases with the turn on average only, so that the steps are small.
-Remeshed remesh_to_volume(const TriangleSurface& surface, const Analysed& part, SurfaceSize size, double tolerance) {
+Remeshed remesh_to_volume(const TriangleSurface& surface, const AnalysedSurface& part, SurfaceSize size,
+                          double tolerance) {
   constexpr int repetitions = 5;
   const double wanted = volume(surface);
   for (int k = 0;; ++k) {
@@ -114,7 +97,7 @@ SurfaceMeshed judged(TetMesh mesh, const TriangleSurface& surface, const Surface
 
 /// The surface remeshed, with both sides of its walls alike, and filled by TetGen; with the sides as they are if that
 /// fails or does not keep the volume.
-TetMesh fill_remeshed(const TriangleSurface& surface, const Analysed& part, const SurfaceSize& size,
+TetMesh fill_remeshed(const TriangleSurface& surface, const AnalysedSurface& part, const SurfaceSize& size,
                       const SurfaceMeshOptions& options) {
   const Remeshed remeshed = remesh_to_volume(surface, part, size, options.volume_tolerance);
   if (options.radius_edge_ratio > 0.0 && is_bulky(remeshed.surface, part.median))
@@ -170,8 +153,17 @@ double smallest_shape(const TetMesh& mesh) {
   return smallest;
 }
 
-std::vector<VolumeMesher> volume_meshers(const TriangleSurface& surface, const SurfaceMeshOptions& options) {
-  const auto part = std::make_shared<const Analysed>(analysed(surface, options.size));
+std::shared_ptr<const AnalysedSurface> analysed_surface(const TriangleSurface& surface, double sharp_angle_rad) {
+  AnalysedSurface result{surface_features(surface, sharp_angle_rad), wall_thickness(surface, TriangleTree(surface))};
+  std::vector<int> all(surface.triangles.size());
+  std::iota(all.begin(), all.end(), 0);
+  result.median = median_thickness(surface, result.thickness, all);
+  return std::make_shared<const AnalysedSurface>(std::move(result));
+}
+
+std::vector<VolumeMesher> volume_meshers(const TriangleSurface& surface, const SurfaceMeshOptions& options,
+                                         std::shared_ptr<const AnalysedSurface> analysed) {
+  const auto part = analysed ? std::move(analysed) : analysed_surface(surface, options.size.sharp_angle_rad);
   std::vector<VolumeMesher> meshers;
   double shorter = 1.0;
   double straighter = 1.0;

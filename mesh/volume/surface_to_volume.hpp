@@ -2,6 +2,7 @@
 // Coarse, graded meshes of tetrahedra inside closed surfaces, with one element through the wall.
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,18 @@ struct SurfaceMeshed {
   std::vector<std::string> failures;   ///< a line for each attempt that failed before
 };
 
+/// The features and walls of a closed surface, for several attempts at it.
+struct AnalysedSurface {
+  SurfaceFeatures features;
+  std::vector<double> thickness;  ///< m, of the wall beneath each triangle
+  double median = 0.0;            ///< m, of the wall beneath half of the surface
+};
+
+/// The features of a surface at edges sharper than `sharp_angle_rad`, and its walls. Throws NumericalError where no ray
+/// from a triangle meets another one. Cost O(n log n).
+[[nodiscard]] std::shared_ptr<const AnalysedSurface> analysed_surface(const TriangleSurface& surface,
+                                                                      double sharp_angle_rad);
+
 /// A method to fill a closed surface with tetrahedra, and its name for the result. It throws NumericalError if it
 /// fails.
 struct VolumeMesher {
@@ -48,8 +61,10 @@ struct VolumeMesher {
 /// until the volume is kept), without layers with equal triangles on both sides of plane walls (matched_walls()), and
 /// filled by TetGen in a quarter of limits.time_s; then, if that fails, remeshed with edges 0.8 and 0.64 times as long
 /// that turn 0.7 and 0.5 times as far; and at last isotropic elements of 1.5 wall thicknesses by CGAL Mesh_3.
+/// `analysed`: analysed_surface() of the surface at options.size.sharp_angle_rad, or empty.
 [[nodiscard]] std::vector<VolumeMesher> volume_meshers(const TriangleSurface& surface,
-                                                       const SurfaceMeshOptions& options);
+                                                       const SurfaceMeshOptions& options,
+                                                       std::shared_ptr<const AnalysedSurface> analysed = {});
 
 /// The mesh of a closed surface by the first method whose mesh keeps the volume and has no degenerate tetrahedron.
 /// Throws InputError for a surface that is not closed (mesh::require_closed()) or an option out of range;

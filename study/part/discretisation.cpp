@@ -152,6 +152,7 @@ fem::ClosedPartOptions closed_part_options(const PartInput& source) {
   if (wanted.order) {
     options.last_order = std::max(2, *wanted.order);
     options.first_order = options.last_order - 1;
+    options.first_dofs = 0;  // the order is the one that is asked for
   }
   return options;
 }

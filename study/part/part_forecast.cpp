@@ -77,7 +77,7 @@ std::optional<setup::PartSize> forecast(const PartInput& source, const std::shar
   setup::PartSize result;
   result.elements = static_cast<double>(mesh.tets.size());
   const bool to_tolerance = kind == setup::ShapeKind::surface && !part.mesh.element_size;
-  const int usual = to_tolerance                     ? fem::ClosedPartOptions{}.first_order + 1
+  const int usual = to_tolerance                     ? fem::first_order_on(mesh, fem::ClosedPartOptions{}) + 1
                     : kind == setup::ShapeKind::mesh ? part.imported->mesh->solid.nodes.order
                                                      : 2;
   result.order = std::max(to_tolerance ? 2 : 1, part.mesh.order.value_or(std::max(2, usual)));

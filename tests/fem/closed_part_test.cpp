@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
+#include <vector>
 
 #include "core/error.hpp"
 #include "mesh/box.hpp"
 #include "mesh/surface/shapes.hpp"
 #include "tests/mesh/kuhn_box.hpp"
+#include "tests/mesh/round_surfaces.hpp"
 
 namespace thinwall::fem::closed_part_test {
 namespace {
@@ -61,6 +64,7 @@ TEST(ClosedPart, KeepsWithinTheBoundOnDegreesOfFreedomAndSaysSo) {
   EXPECT_EQ(bounded.refined.model.K.rows(), steps[1].dofs);
   EXPECT_GT(bounded.frequency_error, options.tolerance);
   options.largest_dofs = steps[1].dofs - 1;
+  options.first_dofs = 0;
   try {
     (void)refine_closed_part(plate_surface(), steel, options);
     FAIL() << "above the bound";
@@ -69,6 +73,58 @@ TEST(ClosedPart, KeepsWithinTheBoundOnDegreesOfFreedomAndSaysSo) {
               std::string::npos)
         << error.what();
   }
+}
+
+// The first answer comes by lower orders; refinement then goes on as it would have, on the same mesh.
+TEST(ClosedPart, BeginsAtTheOrderThatIsSmallEnoughAndEndsTheSame) {
+  ClosedPartOptions options;
+  options.supports = {{"foot", mesh::face_of(plate, "x_min"), {0, 1, 2}}};
+  const ClosedPart usual = refine_closed_part(plate_surface(), steel, options);
+  ASSERT_TRUE(usual.met);
+  const mesh::TetMesh mesh = first_mesh(plate_surface(), options).mesh;
+  EXPECT_EQ(first_order_on(mesh, options), 3);
+  for (const int order : {2, 1}) {
+    options.first_dofs = 3 * mesh::lagrange_node_count(mesh, order + 1);
+    EXPECT_EQ(first_order_on(mesh, options), order);
+    const ClosedPart found = refine_closed_part(plate_surface(), steel, options);
+    EXPECT_EQ(found.refined.estimate.steps.front().order, order);
+    EXPECT_TRUE(found.met);
+    EXPECT_EQ(found.refined.level, usual.refined.level);
+    const auto change =
+        (found.refined.modes.frequency_hz.array() / usual.refined.modes.frequency_hz.array() - 1.0).abs();
+    EXPECT_LT(change.maxCoeff(), found.frequency_error + usual.frequency_error) << order;
+  }
+}
+
+TEST(ClosedPart, APartThatIsTooLargeForTheUsualOrdersHasAnAnswer) {
+  ClosedPartOptions options;
+  const mesh::TetMesh mesh = first_mesh(plate_surface(), options).mesh;
+  options.largest_dofs = 3 * mesh::lagrange_node_count(mesh, 2);
+  const ClosedPart found = refine_closed_part(plate_surface(), steel, options);
+  EXPECT_EQ(found.refined.model.nodes.order, 2);
+  EXPECT_FALSE(found.met);
+  EXPECT_GT(found.frequency_error, options.tolerance);
+  EXPECT_EQ(found.refined.estimate.held_back_by, "the next model would be too large");
+  options.largest_dofs -= 1;
+  EXPECT_THROW((void)refine_closed_part(plate_surface(), steel, options), core::InputError);
+}
+
+// Chords of a ball enclose less than it; cubic elements a little less.
+TEST(ClosedPart, TheVolumeThatAModelMissesIsPartOfItsError) {
+  const mesh::TriangleSurface surface = mesh::testing::ball_surface(0.04, 30);
+  ClosedPartOptions options;
+  std::vector<FirstMesh> meshes;
+  const SolidPart part = solid_part(surface, steel, options, meshes);
+  const mesh::TetMesh mesh = part.mesh(0);
+  double last = 1.0;
+  for (const int order : {1, 2, 3}) {
+    const Model model = supported_model(mesh, order, steel, {}, part.shaping(mesh));
+    const double missed = std::abs(model.mass.mass_kg / (steel.density_kg_m3 * mesh::volume(surface)) - 1.0);
+    EXPECT_DOUBLE_EQ(part.shape_error(model), missed);
+    EXPECT_LT(missed, last) << order;
+    last = missed;
+  }
+  EXPECT_LT(last, 0.4 * options.tolerance);
 }
 
 TEST(ClosedPart, AFirstMeshThatIsAtHandIsNotMadeAgain) {

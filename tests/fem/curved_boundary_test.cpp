@@ -97,6 +97,32 @@ TEST(CurvedBoundary, NoTetrahedronKeepsTwoFacesOnACurvedPatch) {
   EXPECT_EQ(skin.vertices.size(), mesh::boundary_surface(before).vertices.size());
 }
 
+/// A slender ring whose long elements are spoilt in many places where all of them follow it.
+struct SlenderRing {
+  mesh::TriangleSurface surface = mesh::testing::torus_surface(0.06, 0.005, 240, 48);
+  mesh::SmoothPatches patches = mesh::smooth_patches(surface, sharp_rad);
+  mesh::TetMesh mesh;
+  explicit SlenderRing(double size_m) : mesh(mesh::fitted_beneath_curves(patches, chords_of(surface, size_m))) {}
+  /// The relative error of a volume.
+  [[nodiscard]] double off(double volume_m3) const { return std::abs(volume_m3 / mesh::volume(surface) - 1.0); }
+};
+
+// Elements beside spoilt ones lost two thirds more of the volume when they were made straight, too.
+TEST(CurvedBoundary, ASpoiltElementLeavesTheOthersOnTheSurface) {
+  const SlenderRing ring(0.005);
+  const double of_chords = ring.off(mesh::volume(ring.mesh));
+  ASSERT_GT(of_chords, 0.05);
+  EXPECT_LT(ring.off(curved_onto(ring.patches, ring.mesh).volume_m3), of_chords / 20.0);
+}
+
+TEST(CurvedBoundary, ElementsOfLowOrdersAreHeldToo) {
+  const SlenderRing ring(0.01);
+  const auto shape = std::make_shared<const CubicShape>(curved_onto(ring.patches, ring.mesh, 1));
+  for (const int order : {1, 2, 3})
+    EXPECT_GE(supported_model(ring.mesh, order, steel, {}, shaping_by(shape)).least_jacobian, 0.1) << order;
+  EXPECT_LT(ring.off(shape->volume_m3), 0.25 * ring.off(mesh::volume(ring.mesh)));
+}
+
 TEST(CurvedBoundary, PlanePartsStayAsTheyAre) {
   const mesh::TriangleSurface block = mesh::block_surface({0.1, 0.06, 0.003}, 0.01);
   const auto patches = mesh::smooth_patches(block, sharp_rad);
