@@ -27,8 +27,10 @@ constexpr double volume_of_chords = 0.08;         // by which straight elements 
 constexpr double deviation_of_chords = 0.2;       // of the wall thickness, likewise
 constexpr double roundest = 1.4;                  // circumradius over shortest edge of elements that need not be flat
 constexpr double size_of_round_parts = 0.8;       // of the mean wall thickness
-constexpr double largest_of_round_parts = 1.3;    // likewise, of those that would take too many triangles
-constexpr double most_of_round_body = 6000.0;     // triangles
+constexpr double most_of_round_body = 4000.0;     // triangles
+constexpr double most_of_rod = 6000.0;            // likewise, of bodies that are as thin across as along their surface
+constexpr double largest_in_rod = 1.3;            // of the mean wall thickness
+constexpr double thinnest_plate = 0.75;           // mean over median thickness: 1 of a plate, 1/2 of a rod
 constexpr double share_of_curves = 0.4;           // of the tolerance, by which the volume of curved elements may err
 constexpr double most_off = 0.02;                 // by volume, of curved elements that are taken nevertheless
 constexpr double most_straight = 30000.0;         // elements, about, beyond which they are
@@ -78,15 +80,18 @@ mesh::SurfaceMeshOptions mesh_options(const mesh::TriangleSurface& surface, cons
 }
 
 /// The size of isotropic elements of a body that is round rather than thin, 0.8 times its mean wall thickness 2 V / A,
-/// m, or more, to 1.3 times it, where there would be too many. Long elements between its sides would be spoilt when
-/// both are curved. 0 for a body that would take too many even so.
-double size_of_round_body(const mesh::TriangleSurface& surface) {
+/// m; in rods to 1.3 times it, where there would be too many. Long elements between its sides would be spoilt when both
+/// are curved. 0 for a body that would take too many. `median`: the wall thickness beneath half of the surface, m.
+double size_of_round_body(const mesh::TriangleSurface& surface, double median) {
   double area = 0.0;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t)
     area += mesh::area_vector(surface, static_cast<int>(t)).norm();
   const double thickness = 2.0 * mesh::volume(surface) / area;
-  const double least = std::sqrt(area / (0.433 * most_of_round_body));  // √3/4 of its square is a triangle's area
-  return least > largest_of_round_parts * thickness ? 0.0 : std::max(least, size_of_round_parts * thickness);
+  const bool is_rod = thickness < thinnest_plate * median;
+  const double least =
+      std::sqrt(area / (0.433 * (is_rod ? most_of_rod : most_of_round_body)));  // √3/4 size² a triangle
+  if (least > (is_rod ? largest_in_rod : size_of_round_parts) * thickness) return 0.0;
+  return std::max(least, size_of_round_parts * thickness);
 }
 
 /// The options of the mesher in successive attempts for elements that are curved afterwards, whose chords may lie far
@@ -134,6 +139,7 @@ struct CurvedMesh {
   FirstMesh mesh;
   double chords_off = 0.0;  ///< by volume, relative, of the straight elements between its vertices
   bool is_small = true;     ///< order 3 can be solved on it
+  bool is_round = false;    ///< the part is round rather than thin
   [[nodiscard]] double off() const { return std::abs(mesh.fit.volume_error_relative); }
   [[nodiscard]] bool is_better_than(const CurvedMesh& other) const {
     return is_small != other.is_small ? is_small : off() < other.off();
@@ -162,9 +168,11 @@ std::optional<CurvedMesh> best_curved_mesh(const mesh::TriangleSurface& surface,
                                            const ClosedPartOptions& options, int level) {
   const auto analysed = mesh::analysed_surface(surface, mesh::SurfaceSize{}.sharp_angle_rad);
   std::optional<CurvedMesh> best;
-  for (const auto& attempt : attempts_with_chords(mesh_options(surface, options, level), size_of_round_body(surface))) {
+  const double size_of_round = size_of_round_body(surface, analysed->median);
+  for (const auto& attempt : attempts_with_chords(mesh_options(surface, options, level), size_of_round)) {
     try {
       CurvedMesh mesh = curved_mesh(surface, patches, analysed, options, attempt, level);
+      mesh.is_round = size_of_round > 0.0;
       if (!best || mesh.is_better_than(*best)) best = std::move(mesh);
       if (best->is_small && best->off() <= share_of_curves * options.tolerance) break;
     } catch (const core::NumericalError&) {
@@ -176,12 +184,11 @@ std::optional<CurvedMesh> best_curved_mesh(const mesh::TriangleSurface& surface,
 
 /// True if curved elements are to be taken rather than straight ones, which would have to be smaller by the square root
 /// of what the volume between the vertices is off, in both directions of the surface.
-bool suffices(const CurvedMesh& curved, const mesh::TriangleSurface& surface, const ClosedPartOptions& options) {
+bool suffices(const CurvedMesh& curved, const ClosedPartOptions& options) {
   if (curved.off() <= share_of_curves * options.tolerance) return true;
   if (curved.off() > most_off) return false;
   const double smaller = curved.chords_off / (share_of_surface * options.tolerance);
-  return size_of_round_body(surface) > 0.0 ||
-         smaller * static_cast<double>(curved.mesh.mesh.tets.size()) > most_straight;
+  return curved.is_round || smaller * static_cast<double>(curved.mesh.mesh.tets.size()) > most_straight;
 }
 
 /// The patches of a surface; null if all of them are planar, so that straight elements follow them.
@@ -198,7 +205,7 @@ FirstMesh mesh_of_level(const mesh::TriangleSurface& surface, const mesh::Smooth
                         const ClosedPartOptions& options, int level) {
   std::optional<CurvedMesh> curved;
   if (patches != nullptr) curved = best_curved_mesh(surface, *patches, options, level);
-  if (curved && suffices(*curved, surface, options)) return std::move(curved->mesh);
+  if (curved && suffices(*curved, options)) return std::move(curved->mesh);
   try {
     return straight_mesh(surface, options, level);
   } catch (const core::NumericalError&) {
