@@ -169,7 +169,11 @@ std::optional<CurvedMesh> best_curved_mesh(const mesh::TriangleSurface& surface,
   const auto analysed = mesh::analysed_surface(surface, mesh::SurfaceSize{}.sharp_angle_rad);
   std::optional<CurvedMesh> best;
   const double size_of_round = size_of_round_body(surface, analysed->median);
-  for (const auto& attempt : attempts_with_chords(mesh_options(surface, options, level), size_of_round)) {
+  const auto attempts = attempts_with_chords(mesh_options(surface, options, level), size_of_round);
+  for (std::size_t i = 0; i < attempts.size(); ++i) {
+    const bool is_last = i + 1 == attempts.size();
+    if (is_last && best && !best->is_small && best->off() <= most_off) break;  // shorter chords would make more
+    const auto& attempt = attempts[i];
     try {
       CurvedMesh mesh = curved_mesh(surface, patches, analysed, options, attempt, level);
       mesh.is_round = size_of_round > 0.0;
