@@ -27,25 +27,27 @@ std::optional<setup::PartSize> size_by_first_mesh(const study::PartInput& part, 
 }
 
 /// The size of the part, by its walls where the first mesh is not there within `limit_s`: the time is then the least.
-setup::PartSize size_of(const cases::Case& source, double limit_s, Forecast& result) {
+setup::PartSize size_of(const cases::Case& source, std::optional<double> limit_s, Forecast& result) {
   const study::PartInput part = study::part_input(source);
   bool over = false;
   std::optional<setup::PartSize> first;
   try {
-    const core::TimeLimit limit(limit_s);
+    std::optional<core::TimeLimit> limit;
+    if (limit_s) limit.emplace(*limit_s);
     first = size_by_first_mesh(part, result);
   } catch (const core::TimeIsOver&) {
     over = true;
   }
   setup::PartSize size = first ? *first : cases::estimate_size(source);
-  if (over) size.seconds = std::max(size.seconds, limit_s);
+  if (over) size.seconds = std::max(size.seconds, *limit_s);
   size.at_least = over || !setup::unreachable_tolerances(source).empty();
   return size;
 }
 
-/// forecast(), with a refusal of the tool's lines left in it; `mesh_limit_s` bounds the time of the first mesh.
+/// forecast(), with a refusal of the tool's lines left in it; `mesh_limit_s` bounds the time of the first mesh, if
+/// given.
 Forecast unrefused_forecast(const cases::Case& source, const std::vector<milling::OperatingPoint>& points,
-                            double mesh_limit_s) {
+                            std::optional<double> mesh_limit_s) {
   Forecast result;
   result.identification_s = study::forecast_identification(source);
   if (source.part) {
@@ -66,8 +68,7 @@ void throw_refusal(const Forecast& forecast) {
 std::optional<Forecast> possible_forecast(const cases::Case& source,
                                           const std::vector<milling::OperatingPoint>& points) {
   try {
-    constexpr double as_long_as_it_takes_s = 1e9;  // the run goes on from the mesh
-    return unrefused_forecast(source, points, as_long_as_it_takes_s);
+    return unrefused_forecast(source, points, std::nullopt);  // the run goes on from the mesh
   } catch (const core::Interrupted&) {
     throw;
   } catch (const core::Error&) {
@@ -77,8 +78,7 @@ std::optional<Forecast> possible_forecast(const cases::Case& source,
 
 }  // namespace
 
-Forecast forecast(const cases::Case& source) {
-  constexpr double mesh_limit_s = 8.0;
+Forecast forecast(const cases::Case& source, double mesh_limit_s) {
   Forecast result = unrefused_forecast(source, {}, mesh_limit_s);
   throw_refusal(result);
   return result;

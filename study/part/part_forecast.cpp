@@ -24,36 +24,52 @@ double dofs(const mesh::TetMesh& mesh, int order) {
   return 3.0 * static_cast<double>(mesh::lagrange_node_count(mesh, order));
 }
 
-/// The time of one solution on two cores, s.
-double solve_s(double dofs) {
-  return 1.3 * std::pow(dofs / 4e4, 1.3);
+/// The share of the vertices that lie within the part: 0 of a wall of one layer, most of a bulky mesh.
+double inner_share(const mesh::TetMesh& mesh) {
+  std::vector<bool> outside(mesh.vertices.size(), false);
+  for (const mesh::BoundaryTriangle& triangle : mesh::boundary(mesh))
+    for (const int vertex : triangle.vertices) outside[static_cast<std::size_t>(vertex)] = true;
+  return static_cast<double>(std::ranges::count(outside, false)) / static_cast<double>(outside.size());
+}
+
+/// The time of one solution of an order on two cores, s: of matrices of so many nodes an element, and of the factor,
+/// which grows with the power 4/3 of a wall's degrees of freedom and the square of a body's.
+double solve_s(const mesh::TetMesh& mesh, int order) {
+  const double nodes = (order + 1.0) * (order + 2.0) * (order + 3.0) / 6.0;
+  const double elements_s = 3e-7 * static_cast<double>(mesh.tets.size()) * nodes * nodes;
+  return elements_s + 0.8 * std::pow(dofs(mesh, order) / 4e4, 1.3 + 0.6 * inner_share(mesh));
 }
 
 /// The shares of the third and the fourth order that parts took at a tolerance, and of a finer mesh as well of those
-/// with edges that turn inwards: by plates with holes and slots, panels, profiles, trays, housings and bent sheets.
+/// that are held by faces, at the edges of which frequencies converge slowly: by plates with holes and slots, panels,
+/// profiles, brackets, trays, housings, blocks and bent sheets.
 struct Refinement {
   double third = 1.0, fourth = 1.0;
   double finer = 1.0;
 };
 
 Refinement usual_refinement(double tolerance) {
-  if (tolerance >= 0.05) return {0.15, 0.0, 0.0};
-  if (tolerance >= 0.02) return {0.3, 0.15, 0.0};
-  return tolerance >= 0.01 ? Refinement{1.0, 0.4, 0.28} : Refinement{};
+  if (tolerance >= 0.05) return {0.4, 0.0, 0.0};
+  if (tolerance >= 0.02) return {0.3, 0.1, 0.0};
+  return tolerance >= 0.01 ? Refinement{1.0, 0.6, 0.4} : Refinement{};
+}
+
+bool held_by_faces(const PartInput& source) {
+  return !setup::supports_of(source).empty() || !setup::attachments_of(source).clamps.empty();
 }
 
 /// The time of the solutions that a tolerance usually takes, from the first order on: two of them in any case, the
 /// others within the part's budget.
-double refinement_s(const setup::Part& part, const mesh::TetMesh& mesh, int first_order, int last_order) {
+double refinement_s(const PartInput& source, const mesh::TetMesh& mesh, int first_order, int last_order) {
+  const setup::Part& part = *source.part;
   const Refinement usual = usual_refinement(part.mesh.tolerance);
   double first = 0.0, further = 0.0;
   for (int order = first_order; order <= last_order; ++order) {
     const int beyond = order - first_order;
     const double share = beyond < 2 ? 1.0 : beyond == 2 ? usual.third : usual.fourth;
-    (beyond < 2 ? first : further) += share * solve_s(dofs(mesh, order));
+    (beyond < 2 ? first : further) += share * solve_s(mesh, order);
   }
-  if (usual.finer > 0.0 && fem::has_reentrant_edge(part.imported->surface->surface))
-    further += usual.finer * (first + further) * std::pow(3.5, 1.3);
+  if (held_by_faces(source)) further += usual.finer * (first + further) * std::pow(3.5, 1.3);
   const double budget = part.mesh.time_budget.value_or(INFINITY);
   return first + std::min(further, std::max(0.0, budget - first));
 }
@@ -83,8 +99,8 @@ std::optional<setup::PartSize> forecast(const PartInput& source, const std::shar
   result.order = std::max(to_tolerance ? 2 : 1, part.mesh.order.value_or(std::max(2, usual)));
   result.dofs = dofs(mesh, result.order);
   const int last = part.mesh.order ? result.order : fem::ClosedPartOptions{}.last_order;
-  result.seconds = to_tolerance ? refinement_s(part, mesh, result.order - 1, last) : solve_s(result.dofs);
-  if (is_solved_one_order_higher(part, result.order)) result.seconds += solve_s(dofs(mesh, result.order + 1));
+  result.seconds = to_tolerance ? refinement_s(source, mesh, result.order - 1, last) : solve_s(mesh, result.order);
+  if (is_solved_one_order_higher(part, result.order)) result.seconds += solve_s(mesh, result.order + 1);
   return result;
 }
 

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
@@ -29,12 +31,53 @@ setup::PartSize forecast_of_block(const std::string& mesh) {
   return study::forecast(study::part_input(source)).value();
 }
 
-/// Of order p the block has (p + 1)³ nodes.
+/// Of order p the block has (p + 1)³ nodes, and no vertex inside.
 TEST(PartForecast, AMeshOfAFileIsSolvedOnceMoreOneOrderHigher) {
-  const auto solved_s = [](int order) { return 1.3 * std::pow(3.0 * std::pow(order + 1.0, 3) / 4e4, 1.3); };
+  const double elements = forecast_of_block("").elements;
+  const auto solved_s = [&](int order) {
+    const double nodes = (order + 1.0) * (order + 2.0) * (order + 3.0) / 6.0;
+    return 3e-7 * elements * nodes * nodes + 0.8 * std::pow(3.0 * std::pow(order + 1.0, 3) / 4e4, 1.3);
+  };
   EXPECT_NEAR(forecast_of_block("").seconds, solved_s(2) + solved_s(3), 1e-12);
   EXPECT_NEAR(forecast_of_block("[part.mesh]\norder = 5\n").seconds, solved_s(5) + solved_s(6), 1e-12);
   EXPECT_NEAR(forecast_of_block("[part.mesh]\norder = 6\n").seconds, solved_s(6), 1e-12) << "there is none higher";
+}
+
+/// The forecast of n × n × k cubes of 1 mm.
+setup::PartSize forecast_of_blocks(int n, int k) {
+  const TemporaryFolder folder;
+  std::string text = "*NODE\n";
+  const auto node = [&](int x, int y, int z) { return std::to_string(1 + x + (n + 1) * (y + (n + 1) * z)); };
+  for (int z = 0; z <= k; ++z)
+    for (int y = 0; y <= n; ++y)
+      for (int x = 0; x <= n; ++x)
+        text += node(x, y, z) + ", " + std::to_string(x) + ", " + std::to_string(y) + ", " + std::to_string(z) + "\n";
+  text += "*ELEMENT, TYPE=C3D8, ELSET=ALL\n";
+  int element = 0;
+  for (int z = 0; z < k; ++z)
+    for (int y = 0; y < n; ++y)
+      for (int x = 0; x < n; ++x) {
+        text += std::to_string(++element);
+        for (const int up : {0, 1})
+          for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
+            text += ", " + node(x + dx, y + dy, z + up);
+        text += "\n";
+      }
+  core::write_file_atomically(folder.path / "blocks.inp", text);
+  const cases::Case source = cases::parse_case(
+      "[part]\nfile = \"blocks.inp\"\nunit = \"mm\"\n[part.material]\nyoungs_modulus = \"70 GPa\"\npoisson_ratio = "
+      "0.3\ndensity = \"2700 kg/m^3\"\n[[part.supports]]\non = \"z_min\"\n[modes]\ncount = 1\n[damping]\nratio = "
+      "0.01\n",
+      folder.path);
+  return study::forecast(study::part_input(source)).value();
+}
+
+// The factor of a body fills more than that of a wall of one layer.
+TEST(PartForecast, ABodyTakesLongerThanAWallOfAsManyElementsAndMoreUnknowns) {
+  const setup::PartSize body = forecast_of_blocks(12, 12), wall = forecast_of_blocks(41, 1);
+  ASSERT_NEAR(body.elements / wall.elements, 1.0, 0.05);
+  EXPECT_LT(body.dofs, wall.dofs);
+  EXPECT_GT(body.seconds, wall.seconds);
 }
 
 }  // namespace
