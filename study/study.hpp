@@ -14,6 +14,7 @@
 #include "study/lobes/drawn_structures.hpp"
 #include "study/lobes/forced_over_speed.hpp"
 #include "study/lobes/learned_chart.hpp"
+#include "study/lobes/line_warnings.hpp"
 #include "study/lobes/lobe_sensitivity.hpp"
 #include "study/lobes/lobes_forecast.hpp"
 #include "study/lobes/lobes_stage.hpp"

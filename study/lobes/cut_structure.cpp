@@ -12,10 +12,10 @@
 #include "core/messages.hpp"
 #include "dynamics/conversion.hpp"
 #include "io/frf/resample.hpp"
-#include "milling/direct/passivity.hpp"
 #include "setup/measured.hpp"
 #include "setup/milling_process.hpp"
 #include "setup/robot_tip.hpp"
+#include "study/lobes/line_warnings.hpp"
 #include "study/lobes/tool_swap.hpp"
 
 namespace thinwall::study {
@@ -58,33 +58,6 @@ milling::SampledReceptance measured_tip(const std::vector<setup::MeasuredFrf>& f
   return tip;
 }
 
-void warn_if_implausible(const milling::SampledReceptance& tip, const std::string& whose) {
-  if (const auto doubt = milling::energy_given(tip)) {
-    core::warn(fmt::format(
-        "{3} FRF along {0}{0} gives energy at {1:.1f} Hz (its imaginary part is {2:.2f} of its size and positive, a "
-        "passive structure's is not): check sign convention, quantity and unit",
-        "xyz"[doubt->direction], doubt -> frequency_hz, doubt -> share, whose));
-  }
-}
-
-/// The swapped tip, with a warning where digits were lost.
-milling::SampledReceptance swapped(const setup::CutSetup& source) {
-  SwappedTip result = swapped_tip(source);
-  if (result.status == coupling::SwapStatus::ill_conditioned)
-    core::warn(fmt::format(
-        "the tool swap lost more than half of its digits (condition {:.1e} at {:.1f} Hz): expect errors there",
-        result.worst_condition, result.at_frequency_hz));
-  const bool on_lines_of_modes = setup::swapped_on_robot(*source.tool);
-  if (const auto peak = on_lines_of_modes ? unresolved_peak_hz(result.tip) : std::nullopt)
-    core::warn(
-        fmt::format("the swapped tool's peak at {:.1f} Hz has less than four of the {} lines in its width, the most "
-                    "that are taken: "
-                    "bound them by tool.swap.to",
-                    *peak, result.tip.frequency_hz.size()));
-  warn_if_implausible(result.tip, "the swapped tool's");
-  return std::move(result.tip);
-}
-
 milling::SampledReceptance in_tool_axes(milling::SampledReceptance tip, const milling::ToolFrame& frame) {
   const Eigen::Matrix3d R = frame.rotation();
   for (Eigen::Matrix3cd& H : tip.H) H = (R.transpose() * H * R).eval();
@@ -109,12 +82,7 @@ milling::FittedStructure fitted(milling::SampledReceptance lines,
                                 const std::optional<milling::RelativeStructure>& poles, const milling::ToolFrame& frame,
                                 const std::string& whose) {
   milling::FittedStructure fit = milling::fitted_structure({std::move(lines), poles}, frame);
-  if (const auto pole = fit.growing) {
-    core::warn(fmt::format(
-        "{} lines have a motion at {:.1f} Hz that grows by itself (damping {:.2g} %), which no passive structure has; "
-        "the chart takes it as decaying: check the signs and directions of what was measured",
-        whose, std::abs(*pole) / (2.0 * std::numbers::pi), -100.0 * pole->real() / std::abs(*pole)));
-  }
+  warn_of_growing_motion(fit.growing, whose);
   return fit;
 }
 
@@ -172,7 +140,7 @@ milling::FittedStructure sampled_structure(const setup::CutSetup& source, const 
   milling::SampledReceptance felt{coupled.axis.hz, {}};
   felt.H.reserve(at_cut.H.size());
   for (const Eigen::MatrixXcd& H : at_cut.H) felt.H.emplace_back(D * H * D.transpose());
-  warn_if_implausible(felt, "the supported part's");
+  warn_of_energy(felt, "the supported part's");
   if (source.tool->swap) throw core::InputError("a swapped tool has lines of its own; give the tool by modes");
   std::optional<milling::RelativeStructure> tool;
   if (setup::known_by_lines(*source.tool)) {
@@ -185,10 +153,14 @@ milling::FittedStructure sampled_structure(const setup::CutSetup& source, const 
 }
 
 milling::SampledReceptance tip_lines(const setup::CutSetup& source, const milling::ToolFrame& frame) {
-  if (source.tool->swap) return in_tool_axes(swapped(source), frame);
+  if (source.tool->swap) {
+    SwappedTip swapped = swapped_tip(source);
+    warn_of_swap(*source.tool, swapped);
+    return in_tool_axes(std::move(swapped.tip), frame);
+  }
   const dynamics::FrequencyAxis& lines = setup::receptance_of(source.tool->measured.front()).axis;
   milling::SampledReceptance tip = measured_tip(source.tool->measured, lines);
-  warn_if_implausible(tip, owner_of_tip(*source.tool));
+  warn_of_energy(tip, owner_of_tip(*source.tool));
   return in_tool_axes(std::move(tip), frame);
 }
 

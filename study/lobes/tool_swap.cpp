@@ -1,11 +1,14 @@
 #include "study/lobes/tool_swap.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/messages.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "coupling/finite_difference_rotations.hpp"
@@ -13,6 +16,7 @@
 #include "fem/beam.hpp"
 #include "robot/modal_table.hpp"
 #include "setup/measured.hpp"
+#include "study/lobes/line_warnings.hpp"
 
 namespace thinwall::study {
 
@@ -235,6 +239,19 @@ SwappedResponse swapped_response(const setup::ToolSwap& swap, const Vector3d& ax
 SwappedTip swapped_tip(const setup::CutSetup& source) {
   const setup::ToolSwap& swap = *source.tool->swap;
   return in_space(swapped_response(swap, source.cutting->tool_axis, with_reference(swap, source.cutting->tool_axis)));
+}
+
+void warn_of_swap(const setup::Tool& tool, const SwappedTip& swapped) {
+  if (swapped.status == coupling::SwapStatus::ill_conditioned)
+    core::warn(fmt::format(
+        "the tool swap lost more than half of its digits (condition {:.1e} at {:.1f} Hz): expect errors there",
+        swapped.worst_condition, swapped.at_frequency_hz));
+  if (const auto peak = setup::swapped_on_robot(tool) ? unresolved_peak_hz(swapped.tip) : std::nullopt)
+    core::warn(
+        fmt::format("the swapped tool's peak at {:.1f} Hz has less than four of the {} lines in its width, the most "
+                    "that are taken: bound them by tool.swap.to",
+                    *peak, swapped.tip.frequency_hz.size()));
+  warn_of_energy(swapped.tip, "the swapped tool's");
 }
 
 TipOfModes tip_of_modes(const setup::CutSetup& source) {

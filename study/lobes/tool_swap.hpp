@@ -41,6 +41,10 @@ struct SwappedResponse {
 /// that are missing (named) and a table that was not given (setup::identify()), and DataError as io::resample().
 [[nodiscard]] SwappedTip swapped_tip(const setup::CutSetup& source);
 
+/// Warns of a swap that lost digits, of a peak that the lines of a robot's modes do not resolve, and of lines that give
+/// energy (warn_of_energy()).
+void warn_of_swap(const setup::Tool& tool, const SwappedTip& swapped);
+
 /// The tip of another table of modes in place of the swap's own, on its lines. It may be called by several threads at
 /// once. Errors as swapped_tip(). Cost: some 10 µs a line.
 using TipOfModes = std::function<SwappedTip(const dynamics::ModalTable&)>;

@@ -17,6 +17,7 @@
 #include "setup/identified/table_modes.hpp"
 #include "setup/milling_process.hpp"
 #include "study/lobes/cut_structure.hpp"
+#include "study/lobes/line_warnings.hpp"
 #include "study/lobes/tool_swap.hpp"
 
 namespace thinwall::study {
@@ -106,8 +107,11 @@ void swap_tool(const setup::Setup& source, const setup::TabledRobot& robot, cons
   };
   setup::CutSetup there = source;
   there.tool->swap->table = std::make_shared<const dynamics::ModalTable>(table_for_swap(posture::expected_modes(at)));
-  (void)cut_structure(there, cut.process.frame, nullptr);  // for its warnings
-  cut.structure_by = [table_for_swap, tip = tip_of_modes(there)](const std::vector<identification::FittedMode>& modes) {
+  const TipOfModes tip = tip_of_modes(there);
+  const SwappedTip swapped = tip(*there.tool->swap->table);
+  warn_of_swap(*there.tool, swapped);
+  warn_of_growing_motion(milling::fitted(swapped.tip).growing, "the swapped tool's");
+  cut.structure_by = [table_for_swap, tip](const std::vector<identification::FittedMode>& modes) {
     return milling::fitted_poles(tip(table_for_swap(modes)).tip);
   };
 }

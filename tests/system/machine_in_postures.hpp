@@ -9,6 +9,7 @@
 #include "coupling/spatial.hpp"
 #include "fem/beam.hpp"
 #include "tests/system/run_in_folder.hpp"
+#include "tests/system/swapped_tools.hpp"
 #include "tests/verification/tool_swap/machine.hpp"
 
 namespace thinwall::tests::swap_on_robot {
@@ -17,8 +18,9 @@ namespace fs = std::filesystem;
 namespace machine = coupling::testing;
 using Complex = std::complex<double>;
 using Eigen::Vector3d;
-
-constexpr double S = 0.02;
+using swapped_tools::carbide;
+using swapped_tools::reference;
+using swapped_tools::target;
 
 /// The machine in posture u, without the rest of its tool: bearings that stiffen along x and soften along y.
 inline dynamics::SpatialModel machine_at(double u) {
@@ -54,16 +56,6 @@ inline dynamics::SpatialModel assembled(double u, const dynamics::SpatialModel& 
   return coupling::couple({tool, machine_at(u)}, {held});
 }
 
-/// Steel of 16 mm, 90 mm out; the elements are those of the case's own beams, so that only the swap is between them.
-inline dynamics::SpatialModel reference() {
-  return fem::tool_beam({{S, machine::steel(0.016), 8}, {0.09 - S, machine::steel(0.016), 8}}, {"1", "1a", "root"},
-                        Vector3d::UnitZ());
-}
-/// Carbide of 12 mm, 65 mm out.
-inline dynamics::SpatialModel target() {
-  return fem::tool_beam({{0.065, machine::carbide(0.012), 8}}, {"1", "root"}, Vector3d::UnitZ());
-}
-
 inline std::string tools(const std::string& target) {
   return R"([tool]
 teeth = 2
@@ -73,14 +65,8 @@ length = "40 mm"
 up = "1a"
 distance = "20 mm"
 to = "6 kHz"
-[[tool.swap.reference]]
-length = "90 mm"
-outer_diameter = "16 mm"
-youngs_modulus = "210 GPa"
-poisson_ratio = 0.3
-density = "7850 kg/m^3"
-[[tool.swap.target]]
-)" + target +
+)" + swapped_tools::reference_table +
+         "[[tool.swap.target]]\n" + target +
          R"([cutting]
 radial_depth = "12 mm"
 Kt = "800 N/mm^2"
@@ -92,12 +78,6 @@ count = 8
 most_added = 0
 )";
 }
-
-inline const std::string carbide = R"(length = "65 mm"
-outer_diameter = "12 mm"
-youngs_modulus = "580 GPa"
-density = "14400 kg/m^3"
-)";
 
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const auto at = text.find(from);

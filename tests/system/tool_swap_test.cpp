@@ -19,6 +19,7 @@
 #include "setup/milling_process.hpp"
 #include "study/lobes/lobes_stage.hpp"
 #include "tests/system/run_in_folder.hpp"
+#include "tests/system/swapped_tools.hpp"
 #include "tests/verification/tool_swap/machine.hpp"
 
 namespace thinwall::tests::tool_swap_test {
@@ -32,22 +33,16 @@ namespace {
 
 namespace fs = std::filesystem;
 namespace machine = coupling::testing;
-using Eigen::Vector3d;
 
-constexpr double S = 0.02;
-
-/// Steel of 16 mm, 90 mm out, measured at the tip and 20 mm up; carbide of 12 mm, 65 mm out. The elements are those of
-/// the case's own beams, so that only the swap is between them.
+/// The machine as measured at the tip and 20 mm up.
 dynamics::ResponseModel with_reference(const dynamics::FrequencyAxis& axis) {
-  const auto tool = fem::tool_beam({{S, machine::steel(0.016), 8}, {0.09 - S, machine::steel(0.016), 8}},
-                                   {"1", "1a", "root"}, Vector3d::UnitZ());
-  return machine::only(machine::assembled(tool, coupling::radial_contact("root", "holder"), axis),
+  return machine::only(machine::assembled(swapped_tools::reference(), coupling::radial_contact("root", "holder"), axis),
                        {"1.x", "1.y", "1a.x", "1a.y"});
 }
 
 dynamics::ResponseModel with_target(const dynamics::FrequencyAxis& axis) {
-  const auto tool = fem::tool_beam({{0.065, machine::carbide(0.012), 8}}, {"1", "root"}, Vector3d::UnitZ());
-  return machine::only(machine::assembled(tool, coupling::radial_contact("root", "holder"), axis), {"1.x", "1.y"});
+  return machine::only(machine::assembled(swapped_tools::target(), coupling::radial_contact("root", "holder"), axis),
+                       {"1.x", "1.y"});
 }
 
 std::string swap_case() {
@@ -57,18 +52,8 @@ diameter = "12 mm"
 length = "20 mm"
 [tool.swap]
 distance = "20 mm"
-[[tool.swap.reference]]
-length = "90 mm"
-outer_diameter = "16 mm"
-youngs_modulus = "210 GPa"
-poisson_ratio = 0.3
-density = "7850 kg/m^3"
-[[tool.swap.target]]
-length = "65 mm"
-outer_diameter = "12 mm"
-youngs_modulus = "580 GPa"
-density = "14400 kg/m^3"
-)";
+)" + swapped_tools::reference_table +
+                     "[[tool.swap.target]]\n" + swapped_tools::carbide;
   const char* const dofs[] = {"1.x", "1.y", "1a.x", "1a.y"};
   for (int i = 0; i < 16; ++i) {
     text += std::string("[[tool.swap.measured]]\nresponse = \"") + dofs[i / 4] + "\"\nforce = \"" + dofs[i % 4] +
