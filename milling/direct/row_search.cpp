@@ -107,8 +107,8 @@ FirstCrossing first_crossing(const GainOnCircle& gain, const StabilityOptions& o
   // is enough where the lobes change little from speed to speed.
   constexpr double step = 1.5;
   FirstCrossing first{CriticalDepths(gain), {}, 0.0};
-  const double begin = options.expected_depth_m ? 1.1 * *options.expected_depth_m : first.search.none_below_m();
-  first.searched_m = begin / step;
+  const double expected = 1.1 * options.expected_depth_m.value_or(0.0);
+  first.searched_m = (expected > 0.0 ? expected : first.search.none_below_m()) / step;
   do {
     first.searched_m = std::min(options.depth_limit_m, step * first.searched_m);
     first.found = first.search.up_to(first.searched_m);
