@@ -134,7 +134,8 @@ std::string learned_text(const LearnedSummary& learned) {
   }
   if (const auto& next = learned.next_cut) {
     text += fmt::format(
-        "      next cut: {:.0f} rpm, {:.3f} mm (chatter {:.0f} %), narrows the {} from {:.1f} to {:.1f} %\n",
+        "      next cut: {:.0f} rpm, {:.3f} mm (chatter {:.0f} %), narrows the relative standard deviation of the {} "
+        "from {:.1f} to {:.1f} %\n",
         next->spindle_speed_rpm, next->depth_m * 1e3, 100.0 * next->chatter_probability,
         next->for_rpm ? "limit" : "best speed", 100.0 * next->deviation_before, 100.0 * next->deviation_after);
   }

@@ -141,7 +141,8 @@ void fields(Visitor& visit, Section& learned) {
         learned.cross_validated);
   visit(Field{"contradictions", Kind::section, "cuts of which the other outcome had more than 95 %", Presence::if_any},
         learned.contradictions);
-  visit(Field{"next_cut", Kind::section, "the cut that is expected to tell most; absent where none is safe enough"},
+  visit(Field{"next_cut", Kind::section,
+              "the cut that is expected to tell most; absent where none is proposed, which a warning explains"},
         learned.next_cut);
   visit(Field{"productive_cut", Kind::section, "the cut that removes most at calibration.risk; absent without that"},
         learned.productive_cut);

@@ -26,10 +26,10 @@ export function learnedLines(runs, colours) {
 const place = (cut) => `${number(cut.spindle_speed_rpm, 5)} rpm, ${number(cut.depth_m * 1e3, 3)} mm`;
 const risk = (cut) => `chatters with a probability of ${percent(cut.chatter_probability, 2)}`;
 
-/** "narrows the limit at 9000 rpm from 12 % to 7 %", as one standard deviation. */
+/** "narrows the relative standard deviation of the limit at 9000 rpm from 12 % to 7 %". */
 function gain(cut) {
   const what = isNumber(cut.for_rpm) ? `the limit at ${number(cut.for_rpm, 5)} rpm` : 'the best speed';
-  return `narrows ${what} from ${percent(cut.deviation_before, 2)} to ${percent(cut.deviation_after, 2)}`;
+  return `narrows the relative standard deviation of ${what} from ${percent(cut.deviation_before, 2)} to ${percent(cut.deviation_after, 2)}`;
 }
 
 /** A trace for each cut that is proposed. */
@@ -45,7 +45,7 @@ export function proposedMarks(runs, colours) {
 const said = (run) => {
   const { next_cut: next, productive_cut: productive } = learnedOf(run);
   return [
-    next ? `The next cut to make is ${place(next)}: it ${risk(next)}, and its outcome ${gain(next)}.` : 'No cut that is safe enough would tell more.',
+    next ? `The next cut to make is ${place(next)}: it ${risk(next)}, and its outcome ${gain(next)}.` : 'No next cut is proposed; the run’s warnings say why.',
     productive ? `The cut that removes most at the case’s risk is ${place(productive)}, which ${risk(productive)}.` : '',
   ].filter(Boolean).join(' ');
 };

@@ -55,7 +55,7 @@ test('the next cut is drawn where it lies and said with its risk and what it bri
   const [next, ...others] = await marks(page);
   assert.deepEqual(others, []);
   assert.deepEqual([next.name, Array.from(next.x), Array.from(next.y)], ['next cut', [1800], [1.5]]);
-  assert.equal(await said(page), 'The next cut to make is 1800 rpm, 1.5 mm: it chatters with a probability of 40 %, and its outcome narrows the limit at 2000 rpm from 12 % to 7 %.');
+  assert.equal(await said(page), 'The next cut to make is 1800 rpm, 1.5 mm: it chatters with a probability of 40 %, and its outcome narrows the relative standard deviation of the limit at 2000 rpm from 12 % to 7 %.');
   assert.match(await page.locator('#lobes .lead').first().textContent(), /The full line is the chart before any cut.*The star is the cut to make next/);
 }));
 
@@ -75,12 +75,12 @@ test('a cut for the best speed and one that removes most are told apart', () => 
   learned.productive_cut = { spindle_speed_rpm: 2500, depth_m: 0.001, chatter_probability: 0.1 };
 }), async (page) => {
   assert.deepEqual((await marks(page)).map((t) => t.name), ['next cut', 'removes most']);
-  assert.match(await said(page), /narrows the best speed from 12 % to 7 %\. The cut that removes most at the case.s risk is 2500 rpm, 1 mm, which chatters with a probability of 10 %\./);
+  assert.match(await said(page), /narrows the relative standard deviation of the best speed from 12 % to 7 %\. The cut that removes most at the case.s risk is 2500 rpm, 1 mm, which chatters with a probability of 10 %\./);
 }));
 
-test('a chart without a cut that is safe enough says so', () => shown(taught((learned) => { delete learned.next_cut; }), async (page) => {
+test('a chart without a next cut sends to the warnings, which have the reason', () => shown(taught((learned) => { delete learned.next_cut; }), async (page) => {
   assert.deepEqual(await marks(page), []);
-  assert.equal(await said(page), 'No cut that is safe enough would tell more.');
+  assert.equal(await said(page), 'No next cut is proposed; the run’s warnings say why.');
 }));
 
 test('a chart that learned nothing speaks of no cut', () => shown(oneRun(), async (page) => {
