@@ -132,11 +132,12 @@ void check_calibration(const Case& source, Findings& findings) {
   if (source.observed.empty()) findings.report("calibration", "there are no cuts to learn from; add [[observed]]");
   const milling::Uncertainty known =
       source.lobes && source.lobes->robust ? source.lobes->robust->uncertainty : milling::Uncertainty{};
-  const bool uncertain =
-      known.frequency > 0.0 || known.damping_ratio > 0.0 || known.mass > 0.0 || known.coefficients > 0.0;
+  const bool uncertain = known.frequency > 0.0 || known.damping_ratio > 0.0 || known.mass > 0.0 ||
+                         known.coefficients > 0.0 || source.calibration->speed_exponent.value_or(0.0) > 0.0;
   if (!uncertain) {
     findings.report("calibration",
-                    "nothing is uncertain beforehand; give [lobes.uncertainty], at least one of them above 0");
+                    "nothing is uncertain beforehand; give [lobes.uncertainty], at least one of them above 0, or "
+                    "calibration.speed_exponent");
   }
   check_parameters(source, known, findings);
   if (source.tool && setup::known_by_lines(*source.tool))

@@ -405,7 +405,7 @@ constexpr Key case_keys[] = {
     Key{"calibration.seed", Type::integer, kind::number, "1", {0, 1e9, false, false, false, ""}, "", "Seed of these draws."},
     Key{"calibration.folds", Type::integer, kind::number, "", {2, 100, false, false, false, "10 is usual"}, "", "Parts of the cuts, each of which is predicted by what the others teach; not done if not given."},
     Key{"calibration.spindle_speed", Type::quantity, kind::spindle_speed, "", positive, "", "The speed whose limit the next cut is to narrow; `cutting.spindle_speed` if not given, and without that the next cut narrows the speed at which most is removed."},
-    Key{"calibration.speed_exponent", Type::quantity, kind::number, "", {0.0, 2.0, false, false, false, "0 leaves it out; 0.2 is usual"}, "", "Standard deviation, beforehand, of the exponent q by which all coefficients fall with the spindle speed, as n^-q about the cuts' middle speed; 0.2 if not given, and at most `lobes.uncertainty.coefficients`."},
+    Key{"calibration.speed_exponent", Type::quantity, kind::number, "", {0.0, 2.0, false, false, false, "0 leaves it out; 0.2 is usual"}, "", "Standard deviation, beforehand, of the exponent q by which all coefficients fall with the spindle speed, as n^-q about the cuts' middle speed; if not given, 0.2 or `lobes.uncertainty.coefficients`, whichever is less; a given value is taken as it is."},
     Key{"calibration.risk", Type::quantity, kind::number, "", {0.0, 1.0, true, true, false, "0.1 is usual"}, "", "Also proposes the cut of the highest removal rate that chatters with at most this probability."},
 
     Key{"machine.min_spindle_speed", Type::quantity, kind::spindle_speed, "", not_negative, "", "Lowest spindle speed."},

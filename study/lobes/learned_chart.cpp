@@ -27,14 +27,13 @@ constexpr double usual_speed_exponent = 0.2;
 constexpr std::size_t limit_draws = 60, candidate_draws = 60;
 constexpr int limit_speeds = 40, candidate_speeds = 24, candidate_depths = 12;
 
-/// Speeds and depths that fill the chart, shallow ones more densely, and that the machine can do.
-std::vector<milling::OperatingPoint> candidates_of(const setup::CutSetup& source,
-                                                   const milling::MillingProcess& process) {
+/// Speeds and depths that fill the chart, shallow ones more densely, and that the machine can do by the cut's forces.
+std::vector<milling::OperatingPoint> candidates_of(const setup::CutSetup& source, const milling::Cut& cut) {
   const setup::LobesOptions& lobes = *source.lobes;
   const milling::MachineLimits machine = source.machine.value_or(milling::MachineLimits{});
-  const std::optional<milling::CutLoad> load = load_of(source, process);
   std::vector<milling::OperatingPoint> list;
   for (const double rpm : milling::spindle_speeds(lobes.from_rpm, lobes.to_rpm, candidate_speeds)) {
+    const std::optional<milling::CutLoad> load = load_of(source, milling::process_at(cut, rpm));
     for (int d = 1; d <= candidate_depths; ++d) {
       const double share = static_cast<double>(d) / candidate_depths;
       const milling::OperatingPoint point{rpm, lobes.depth_limit * share * share};
@@ -162,14 +161,29 @@ double middle_speed_rpm(const std::vector<milling::ObservedCut>& cuts) {
 
 /// Adds the exponent by which the coefficients fall with the speed. Its deviation is [calibration]'s or, without that,
 /// usual_speed_exponent, at most what the coefficients are uncertain by: a speed e times as high then changes them by
-/// no more than that. Coefficients that are certain have none, nor does a model of most_parameters.
+/// no more than that. Without that key, coefficients that are certain have none, nor does a model of most_parameters,
+/// which is told.
 void add_speed_exponent(learning::CutModel& model, const setup::CutSetup& source) {
-  if (!source.calibration || !source.lobes->robust || model.cuts.empty()) return;
-  const double of_coefficients = source.lobes->robust->uncertainty.coefficients;
-  const double spread = source.calibration->speed_exponent.value_or(std::min(usual_speed_exponent, of_coefficients));
-  if (!(spread > 0.0) || std::ssize(model.parameters) >= learning::most_parameters) return;
+  if (!source.calibration || model.cuts.empty()) return;
+  const double of_coefficients = source.lobes->robust ? source.lobes->robust->uncertainty.coefficients : 0.0;
+  const std::optional<double> given = source.calibration->speed_exponent;
+  const double spread = given.value_or(std::min(usual_speed_exponent, of_coefficients));
+  if (!(spread > 0.0)) return;
+  if (!given && std::ssize(model.parameters) >= learning::most_parameters) {
+    core::warn(
+        fmt::format("calibration: no speed exponent, since {} parameters are uncertain already; set what is "
+                    "known in [lobes.uncertainty] to 0",
+                    model.parameters.size()));
+    return;
+  }
   model.nominal.reference_rpm = middle_speed_rpm(model.cuts);
   model.parameters.push_back({milling::ParameterOf::speed_exponent, -1, spread});
+}
+
+/// The cut with what was learned, whose forces ask of the machine what they were found to be.
+milling::Cut likeliest_cut(const learning::Calibration& learned) {
+  const learning::CutModel& model = learned.model;
+  return milling::cut_at(model.nominal, model.parameters, learned.likeliest.x.head(std::ssize(model.parameters)));
 }
 
 }  // namespace
@@ -209,7 +223,7 @@ LearnedChart learned_chart(const setup::CutSetup& source, const milling::Cut& no
   if (wanted.folds) chart.cross_validated = learning::cross_validated(model, *wanted.folds);
   const std::vector<LimitsAtSpeed> limits = limits_of_draws(*source.lobes, chart.calibration, options);
   chart.rows = answered_rows(limits);
-  add_next_cuts(chart, source, limits, candidates_of(source, nominal.process));
+  add_next_cuts(chart, source, limits, candidates_of(source, likeliest_cut(chart.calibration)));
   return chart;
 }
 

@@ -135,6 +135,8 @@ TEST(ObservedCase, LearnsOnlyWithCutsAndUncertainty) {
   EXPECT_TRUE(parse_case(tool_case(uncertain + one_cut + "[calibration]\nseed = 2\n"), ".").calibration);
   expect_problem(uncertain + "[calibration]\nseed = 2\n", "no cuts to learn from");
   expect_problem(one_cut + "[calibration]\nseed = 2\n", "nothing is uncertain beforehand");
+  EXPECT_TRUE(parse_case(tool_case(one_cut + "[calibration]\nspeed_exponent = 0.3\n"), ".").calibration)
+      << "the exponent alone is something to learn";
   std::string modes;
   for (int i = 0; i < 24; ++i) {
     modes += "[[tool.modes]]\nfrequency = \"" + std::to_string(600 + 50 * i) +

@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "core/error.hpp"
 #include "core/messages.hpp"
 #include "study/lobes/learned_chart.hpp"
+#include "tests/milling/single_mode.hpp"
 
 namespace thinwall::study {
 namespace {
@@ -48,6 +52,43 @@ TEST(LearnedRows, HaveNoRowWhereMostDrawsOrTheNominalCutHaveNoLimit) {
   ASSERT_EQ(result.rows.size(), 1u);
   EXPECT_EQ(result.rows[0].spindle_speed_rpm, 10000.0);
   EXPECT_NE(result.told.find("of 3 speeds 2 have no learned limit"), std::string::npos) << result.told;
+}
+
+/// The parameters of a tool of so many modes, each with three, and of three coefficients, and what was told.
+struct ToldModel {
+  learning::CutModel model;
+  std::string told;
+};
+
+ToldModel told_model(int modes, std::optional<double> speed_exponent) {
+  std::vector<milling::testing::Mode> list;
+  for (int i = 0; i < modes; ++i) list.push_back({500.0 + 100.0 * i, 0.02, 0.3, Eigen::Vector3d::UnitX()});
+  milling::Cut nominal;
+  nominal.structure = milling::relative_structure(milling::testing::modal_model(list), "P");
+  nominal.process.coefficients = {1.1e9, 2e8, 1e8};
+  setup::CutSetup source;
+  source.lobes.emplace().robust.emplace().uncertainty = {0.02, 0.1, 0.1, 0.1};
+  source.observed = {{{}, {{9000.0, 1e-3, milling::CutOutcome::stable}}}};
+  source.calibration.emplace().speed_exponent = speed_exponent;
+  ToldModel result;
+  const auto before =
+      core::set_message_listener([&](core::MessageLevel, const std::string& text) { result.told += text; });
+  try {
+    result.model = cut_model(source, nominal, {});
+  } catch (const core::InputError& error) {
+    result.told += error.what();
+  }
+  core::set_message_listener(before);
+  return result;
+}
+
+TEST(CutModel, TellsThatAUsualSpeedExponentHasNoRoomAndRefusesOneThatIsAskedFor) {
+  EXPECT_EQ(told_model(6, std::nullopt).model.parameters.size(), 22u) << "18 of modes, 3 coefficients, the exponent";
+  const ToldModel full = told_model(7, std::nullopt);
+  EXPECT_EQ(full.model.parameters.size(), 24u);
+  EXPECT_NE(full.told.find("no speed exponent, since 24 parameters are uncertain"), std::string::npos) << full.told;
+  EXPECT_NE(told_model(7, 0.2).told.find("25 parameters are uncertain"), std::string::npos);
+  EXPECT_EQ(told_model(7, 0.0).told, "");
 }
 
 }  // namespace
