@@ -1,8 +1,10 @@
 #include "case/material_values.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "setup/materials/cut_materials.hpp"
@@ -12,11 +14,8 @@ namespace thinwall::cases {
 
 namespace {
 
-/// What a material puts in: coefficients with their spread, and the power law where that is taken.
-struct MaterialValues {
-  double K_t = 0.0, K_r = 0.0, spread = 0.0;
-  std::optional<setup::PowerLawCoefficients> power;
-};
+/// The middle of a material for one of the laws.
+using MaterialValues = std::variant<setup::MaterialCoefficients, setup::PowerLawCoefficients>;
 
 bool was_given(const CaseValues& values, const std::string& key) {
   const CaseValue* known = find(values, key);
@@ -51,16 +50,9 @@ std::optional<MaterialValues> values_of(const CaseValues& values, const std::str
   const auto power = setup::power_law_of(material);
   const bool law_is_given = was_given(values, "cutting.law") || was_given(values, "cutting.Kt");
   const bool wants_power = text_of(values, "cutting.law") == "power" || (!linear && !law_is_given);
-  if (power && wants_power) return MaterialValues{power->K_t, power->K_r, power->spread, power};
-  if (linear && text_of(values, "cutting.law") == "linear")
-    return MaterialValues{linear->K_t, linear->K_r, linear->spread, std::nullopt};
+  if (power && wants_power) return *power;
+  if (linear && text_of(values, "cutting.law") == "linear") return *linear;
   return std::nullopt;
-}
-
-void set_power_law(CaseValues& values, const setup::PowerLawCoefficients& power) {
-  set_unless_given(values, "cutting.law", std::string("power"));
-  set_unless_given(values, "cutting.exponents", std::vector<double>{power.exponent});
-  if (power.thinnest_chip_m > 0.0) set_unless_given(values, "cutting.thinnest_chip", power.thinnest_chip_m);
 }
 
 /// Hands a spread to the robust chart, with a table of its own where the case has none and the chart can be robust.
@@ -75,15 +67,31 @@ void set_spread(CaseValues& values, double spread) {
   set_unless_given(values, "lobes.uncertainty.coefficients", spread);
 }
 
+void put_in(CaseValues& values, const setup::MaterialCoefficients& linear) {
+  const bool with_Kt = set_unless_given(values, "cutting.Kt", linear.K_t);
+  set_unless_given(values, "cutting.Kr", linear.K_r);
+  if (with_Kt) set_spread(values, linear.spread);
+}
+
+void put_in(CaseValues& values, const setup::PowerLawCoefficients& power) {
+  set_unless_given(values, "cutting.law", std::string("power"));
+  set_unless_given(values, "cutting.exponents", std::vector<double>{power.exponent});
+  const bool with_Kt = set_unless_given(values, "cutting.Kt", power.K_t);
+  const CaseValue* Kt = find(values, "cutting.Kt");
+  const double* of_case = Kt ? std::get_if<double>(&Kt->value) : nullptr;  // none of what could not be read
+  const bool with_Kr = of_case && set_unless_given(values, "cutting.Kr", setup::usual_radial_share() * *of_case);
+  if (!with_Kt) return;
+  // The printed chip is the feed per tooth. The mean chip of a slot at this feed is 2/π of it.
+  if (power.thinnest_chip_m > 0.0)
+    set_unless_given(values, "cutting.thinnest_chip", 2.0 / std::numbers::pi * power.thinnest_chip_m);
+  set_spread(values, with_Kr ? power.spread_with_radial : power.spread);
+}
+
 }  // namespace
 
 void fill_in_material(CaseValues& values) {
   const auto middle = values_of(values, text_of(values, "cutting.material"));
-  if (!middle) return;
-  if (middle->power) set_power_law(values, *middle->power);
-  const bool filled_in = set_unless_given(values, "cutting.Kt", middle->K_t);
-  set_unless_given(values, "cutting.Kr", middle->K_r);
-  if (filled_in) set_spread(values, middle->spread);
+  if (middle) std::visit([&](const auto& of_law) { put_in(values, of_law); }, *middle);
 }
 
 }  // namespace thinwall::cases

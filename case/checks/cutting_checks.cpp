@@ -60,11 +60,24 @@ void require_feed(const Case& source, const std::string& key, const std::string&
                            "cutting.spindle_speed");
 }
 
+/// A k_1.1 belongs to the exponent with which it was published.
+void check_own_exponents(const Case& source, const std::string& material, Findings& findings) {
+  const auto middle = setup::power_law_of(material);
+  if (source.cutting->law != setup::ForceLawKind::power || !middle) return;
+  if (!findings.written("cutting.exponents") || findings.written("cutting.Kt")) return;
+  findings.report("cutting.exponents",
+                  fmt::format("the Kt of {} at a chip of 1 mm belongs to its exponent of {:.3f}; leave the exponents "
+                              "out, or give cutting.Kt, too",
+                              material, middle->exponent));
+}
+
 /// A material of which the linear law has no coefficients, where the case asks for that law.
 void check_cut_material(const Case& source, Findings& findings) {
   const CaseValue* given = find(source.values, "cutting.material");
   const auto* material = given ? std::get_if<std::string>(&given->value) : nullptr;
-  if (!material || source.cutting->law != setup::ForceLawKind::linear) return;
+  if (!material) return;
+  check_own_exponents(source, *material, findings);
+  if (source.cutting->law != setup::ForceLawKind::linear) return;
   if (setup::coefficients_of(*material) || !setup::power_law_of(*material)) return;
   findings.report("cutting.material", *material +
                                           " is published for the power law only; write cutting.law = \"power\", "
@@ -130,9 +143,11 @@ void check_force_law(const Case& source, Findings& findings) {
   if (!source.tool) return;
   if (!source.tool->runout.empty()) require_feed(source, "tool.runout", "what runout does", findings);
   if (curved && source.tool->end != setup::ToolEnd::flat) {
-    findings.report("cutting.law",
-                    "only the linear law serves a tool whose chip thins towards the tip; give Kt, Kr "
-                    "and Ka for its mean chip");
+    // A law that nobody wrote is that of the material.
+    const bool own_law = findings.written("cutting.law");
+    findings.report(own_law ? "cutting.law" : "cutting.material",
+                    std::string("only the linear law serves a tool whose chip thins towards the tip; ") +
+                        (own_law ? "" : "leave the material out and ") + "give Kt, Kr and Ka for its mean chip");
   }
   if (c.process_damping > 0.0 && source.tool->end != setup::ToolEnd::flat)
     findings.report("cutting.process_damping", "is known for flat ends only; leave it out");

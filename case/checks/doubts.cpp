@@ -117,10 +117,12 @@ void ask_about_thin_chips(const Case& source, std::vector<std::string>& doubts) 
   double mean = *thinnest;
   for (const milling::ChipLoad& load : milling::chip_loads(cutter, arcs, *feed))
     if (load.mean_thickness_m > 0.0) mean = std::min(mean, load.mean_thickness_m);
-  if (!(mean < *thinnest)) return;
+  if (!(mean < *thinnest * (1.0 - 1e-5))) return;  // the mean is integrated by steps
+  const bool curved = source.cutting->law == setup::ForceLawKind::power;
   doubts.push_back("the mean chip is " + core::readable_text(mean, core::kind::length) +
                    " thick, thinner than cutting.thinnest_chip, " + core::readable_text(*thinnest, core::kind::length) +
-                   ", at which the coefficients were measured; thin chips take more force per area");
+                   ", at which the coefficients were measured; " +
+                   (curved ? "the law is extrapolated there" : "thin chips take more force per area"));
 }
 
 /// Teeth that runout keeps from a part of their arcs: what one misses is cut with the delay of two pitches.

@@ -38,6 +38,13 @@ double deviation_of(const std::vector<double>& values) {
   return std::sqrt(squares / static_cast<double>(values.size() - 1));
 }
 
+std::vector<double> log_radial_shares() {
+  std::vector<double> logs;
+  logs.reserve(table.size());
+  for (const PublishedCut& cut : table) logs.push_back(std::log(cut.K_r / cut.K_t));
+  return logs;
+}
+
 }  // namespace
 
 std::span<const PublishedCut> published_cuts() {
@@ -45,9 +52,11 @@ std::span<const PublishedCut> published_cuts() {
 }
 
 double usual_radial_share() {
-  double log_ratio = 0.0;
-  for (const PublishedCut& cut : table) log_ratio += std::log(cut.K_r / cut.K_t);
-  return std::exp(log_ratio / static_cast<double>(table.size()));
+  return std::exp(mean_of(log_radial_shares()));
+}
+
+double radial_share_deviation() {
+  return deviation_of(log_radial_shares());
 }
 
 std::optional<MaterialCoefficients> coefficients_of(std::string_view material) {

@@ -31,6 +31,9 @@ struct MaterialCoefficients {
 /// tools of the table cut aluminium, and their ratios go from 0.06 to 0.60.
 [[nodiscard]] double usual_radial_share();
 
+/// The standard deviation of ln(K_r/K_t) between the tools of the table.
+[[nodiscard]] double radial_share_deviation();
+
 /// The middle of a material's published coefficients; none of one that the table does not have.
 [[nodiscard]] std::optional<MaterialCoefficients> coefficients_of(std::string_view material);
 

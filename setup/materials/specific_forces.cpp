@@ -180,12 +180,16 @@ std::optional<PowerLawCoefficients> power_law_of(std::string_view material) {
   middle.K_t = std::exp(log_k_1);
   middle.K_r = usual_radial_share() * middle.K_t;
   middle.spread = spread_of(*alloy);
+  middle.spread_with_radial = std::hypot(middle.spread, radial_share_deviation());
   return middle;
 }
 
 double pooled_spread() {
   double squares = 0.0, freedoms = 0.0;
+  std::vector<std::vector<const PublishedSpecificForce*>> seen;
   for (const AlloyClasses& alloy : all_alloys()) {
+    if (std::ranges::find(seen, alloy.classes) != seen.end()) continue;
+    seen.push_back(alloy.classes);
     squares += squares_of(alloy);
     freedoms += static_cast<double>(alloy.classes.size()) - 1.0;
   }

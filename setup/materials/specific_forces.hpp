@@ -44,17 +44,20 @@ struct PowerLawCoefficients {
   double K_t = 0.0, exponent = 0.0;  ///< N/m² at 1 mm, 1
   double K_r = 0.0;                  ///< N/m², K_t times usual_radial_share(), for no source prints it
   double spread =
-      0.0;          ///< of ln k_c at compared_chip_m: the larger of the sources' standard deviation and pooled_spread()
-  int sources = 0;  ///< ≥ 1
-  double thinnest_chip_m = 0.0;  ///< of the printed forces; 0: printed by none of the sources
+      0.0;  ///< of ln k_c at compared_chip_m: the larger of the sources' standard deviation and pooled_spread()
+  double spread_with_radial = 0.0;  ///< the larger of those of ln K_t and ln K_r = ln K_t + ln(K_r/K_t), independent
+                                    ///< of each other: √(spread² + radial_share_deviation()²), that of ln K_r
+  int sources = 0;                  ///< ≥ 1
+  double thinnest_chip_m = 0.0;     ///< of the printed forces; 0: printed by none of the sources
 };
 
 /// The middle of an alloy's classes; none of an alloy that the table does not have.
 [[nodiscard]] std::optional<PowerLawCoefficients> power_law_of(std::string_view material);
 
-/// The standard deviation of ln k_c at compared_chip_m between sources of one alloy, pooled over all alloys. It stands
-/// for alloys with one source, and is the least for the others: two or three catalogues, which may go back to common
-/// tests, tell little of a tool that none of them used.
+/// The standard deviation of ln k_c at compared_chip_m between sources of one alloy, pooled over the distinct lists of
+/// classes, since alloys of the same classes tell the same. It stands for alloys with one source, and is the least for
+/// the others: two or three catalogues, which may go back to common tests, tell little of a tool that none of them
+/// used.
 [[nodiscard]] double pooled_spread();
 
 }  // namespace thinwall::setup
