@@ -17,6 +17,7 @@
 #include "fem/edge_exponent.hpp"
 #include "fem/interpolation.hpp"
 #include "fem/receptance_change.hpp"
+#include "fem/size/solution_bytes.hpp"
 
 namespace thinwall::fem {
 
@@ -24,8 +25,8 @@ namespace {
 
 constexpr const char* too_large = "the next model would be too large";
 
-/// One solution, with the quantities that are compared between orders. Where memory is short, the factor is given up
-/// while a larger model is solved.
+/// One solution, with the quantities that are compared between orders. Where memory is short, the factor and then K and
+/// M are given up while a larger model is solved.
 struct Solution {
   Model model;
   std::optional<Factored> factored;
@@ -38,10 +39,15 @@ Materials materials_of(const SolidPart& part, const mesh::TetMesh& mesh) {
   return part.materials ? part.materials(mesh) : Materials{{part.material}, {}};
 }
 
+/// The model of a part on a mesh.
+Model model_on(const SolidPart& part, const mesh::TetMesh& mesh, int order) {
+  const Shaping shape = part.shaping ? part.shaping(mesh) : part.shape;
+  return supported_model(mesh, order, materials_of(part, mesh), part.supports, shape, part.attachments);
+}
+
 /// The model and its factor, with the modes still to be found.
 Solution prepared(const SolidPart& part, const mesh::TetMesh& mesh, int order, const ToleranceOptions& options) {
-  const Shaping shape = part.shaping ? part.shaping(mesh) : part.shape;
-  Model model = supported_model(mesh, order, materials_of(part, mesh), part.supports, shape, part.attachments);
+  Model model = model_on(part, mesh, order);
   Factored factored = factorise(model, options.memory_limit_bytes);
   return {std::move(model), std::move(factored), {}, {}};
 }
@@ -222,6 +228,7 @@ Refined finished(Refinement&& r) {
   if (!s.factored) {
     // The factor was given up for a solution that failed. It fits as it did before once the other one has none.
     if (r.better) (&best == &*r.better ? *r.now : *r.better).solution.factored.reset();
+    if (s.model.K.size() == 0) s.model = model_on(r.part, s.model.mesh, s.model.nodes.order);
     s.factored = factorise(s.model, r.options.memory_limit_bytes);
   }
   return {std::move(s.model), std::move(*s.factored), std::move(s.modes), std::move(estimate), best.level};
@@ -264,27 +271,20 @@ void begin_level(Refinement& r, int level, mesh::TetMesh mesh) {
   r.now = Found{std::move(below), of_below, level};
 }
 
-/// The memory that a solution takes, by one that is known: that of K, M and K − σM grows as the entries of all
-/// elements' matrices, that of the factor, of `factor_bytes`, as n^{4/3} (George 1973, for bodies; less for plates).
-double bytes_of(const mesh::TetMesh& mesh, int order, const Model& known, double factor_bytes) {
-  const auto entries = [](const mesh::TetMesh& m, int p) {
-    return static_cast<double>(m.tets.size()) * std::pow((p + 1) * (p + 2) * (p + 3) / 6.0, 2);
-  };
-  const double rows =
-      static_cast<double>(mesh::lagrange_node_count(mesh, order)) / static_cast<double>(known.nodes.positions.rows());
-  const double matrices = 3.0 * 12.0 * static_cast<double>(known.K.nonZeros());
-  return matrices * entries(mesh, order) / entries(known.mesh, known.nodes.order) +
-         factor_bytes * std::pow(rows, 4.0 / 3.0);
-}
-
-/// Gives up the factor of the last solution if the next one does not fit beside it. Throws NumericalError if it does
-/// not fit without it.
+/// Gives up the factor of the last solution if the next one does not fit beside it, and its matrices if they are in the
+/// way, too. Throws NumericalError if it does not fit without them.
 void make_room(Refinement& r, const mesh::TetMesh& mesh, int order) {
-  std::optional<Factored>& factored = r.now->solution.factored;
-  if (!factored) factored = factorise(r.now->solution.model, r.options.memory_limit_bytes);
-  const double held = factored->factor.statistics().bytes;
-  const double needed = bytes_of(mesh, order, r.now->solution.model, held), left = core::memory_left_bytes();
-  if (left > 0.0 && needed > left && needed <= left + held) factored.reset();
+  Solution& last = r.now->solution;
+  const double factor = last.factored ? last.factored->factor.statistics().bytes : 0.0;
+  const double matrices = bytes_of(last.model.K) + bytes_of(last.model.M);
+  const double needed = solution_bytes(mesh, order), left = core::memory_left_bytes();
+  if (left > 0.0 && needed > left && needed <= left + factor + matrices) {
+    last.factored.reset();
+    if (needed > core::memory_left_bytes()) {
+      linalg::SparseMatrix().swap(last.model.K);
+      linalg::SparseMatrix().swap(last.model.M);
+    }
+  }
   core::require_memory(needed, "a solution of " + std::to_string(3 * mesh::lagrange_node_count(mesh, order)) +
                                    " degrees of freedom at order " + std::to_string(order));
 }

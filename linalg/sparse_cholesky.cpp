@@ -9,6 +9,7 @@
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "linalg/external_factor.hpp"
+#include "linalg/factor_bytes.hpp"
 #include "linalg/large_array.hpp"
 #include "linalg/ordering.hpp"
 #include "linalg/supernodal_factor.hpp"
@@ -57,12 +58,6 @@ struct SparseCholesky::Impl {
   Eigen::Index rows = 0;
   std::unique_ptr<ExternalFactor> external;  // if another engine holds the factor, in place of all above
 
-  /// Bytes of the factor with the zeros that supernodes store, of its indices, and of the update matrices that the
-  /// numeric phase holds at its worst.
-  [[nodiscard]] double bytes() const {
-    return 8.0 * static_cast<double>(L.values()) + 4.0 * static_cast<double>(L.rows.size()) + update_bytes(L, cut);
-  }
-
   void analyse(const SparseMatrix& A) {
     auto start = Clock::now();
     const MatrixGraph graph = pattern_graph(A);
@@ -74,7 +69,7 @@ struct SparseCholesky::Impl {
     const FactorCost cost = factor_cost(L);
     statistics.flops = cost.flops;
     statistics.nonzeros = cost.nonzeros;
-    statistics.bytes = bytes();
+    statistics.bytes = factor_bytes(L, cut);
     statistics.seconds_analysis = seconds_since(start);
   }
 

@@ -1,0 +1,97 @@
+// The memory of a solution is known from its mesh.
+
+#include "fem/size/solution_bytes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/memory.hpp"
+#include "fem/to_tolerance.hpp"
+#include "linalg/factor_bytes.hpp"
+#include "mesh/lagrange_nodes.hpp"
+#include "tests/mesh/kuhn_box.hpp"
+
+namespace thinwall::fem::solution_bytes_test {
+namespace {
+
+const Material steel{210e9, 0.3, 7850.0};
+
+/// A free thin plate and a free block, whose factors grow at different rates.
+struct Shape {
+  const char* name = "";
+  mesh::TetMesh mesh;
+};
+
+std::vector<Shape> shapes() {
+  return {{"plate", mesh::kuhn_box({0.3, 0.2, 0.005}, {9, 6, 1})},
+          {"block", mesh::kuhn_box({0.3, 0.2, 0.15}, {4, 4, 4})}};
+}
+
+TEST(SolutionBytes, AreThoseOfTheMatricesAndTheFactor) {
+  for (const Shape& shape : shapes()) {
+    for (const int order : {1, 2, 4}) {
+      const Model model = supported_model(shape.mesh, order, steel, {});
+      ASSERT_EQ(model.rigid_motions, 6);
+      const Factored factored = factorise(model);
+      const double matrices = 2.0 * bytes_of(model.K) + bytes_of(model.M), factor = factored.factor.statistics().bytes;
+      const double by_graph = linalg::factor_bytes(element_graph(shape.mesh, order));
+      EXPECT_NEAR(solution_bytes(shape.mesh, order), matrices + by_graph, 1e-9 * matrices) << shape.name << order;
+      EXPECT_NEAR(by_graph, factor, 0.2 * factor) << shape.name << " at order " << order;
+    }
+  }
+}
+
+TEST(SolutionBytes, OfAGraphHaveARowForEachDegreeOfFreedom) {
+  for (int order = 1; order <= 6; ++order) {
+    const mesh::TetMesh mesh = mesh::kuhn_box({0.3, 0.2, 0.15}, {2, 3, 1});
+    std::size_t rows = 0;
+    for (const auto& of_node : element_graph(mesh, order).rows) rows += of_node.size();
+    EXPECT_EQ(rows, 3 * static_cast<std::size_t>(mesh::lagrange_node_count(mesh, order))) << order;
+  }
+}
+
+/// A finer mesh that does not fit beside the factor and the matrices of the solution before is tried without them (with
+/// half of their bytes, for a factor holds no update matrices any more), and when it fails they are made again.
+TEST(SolutionBytes, OfThePreviousSolutionAreGivenUpForANextOneThatNeedsThem) {
+  const auto mesh_of = [](int level) { return mesh::kuhn_box({0.3, 0.2, 0.05}, {6 + 2 * level, 4 + 2 * level, 2}); };
+  const Model coarse = supported_model(mesh_of(0), 4, steel, {});
+  const Factored factored = factorise(coarse);
+  const double matrices = bytes_of(coarse.K) + bytes_of(coarse.M), factor = factored.factor.statistics().bytes;
+  bool finer_was_begun = false;
+  SolidPart part;
+  part.mesh = [&](int level) {
+    if (level > 0) {
+      const double left = solution_bytes(mesh_of(1), 4) - 0.5 * factor - 0.5 * matrices;
+      core::set_memory_limit(1e12);
+      core::set_memory_limit(1e12 - core::memory_left_bytes() + left);
+    }
+    return mesh_of(level);
+  };
+  part.materials = [&](const mesh::TetMesh& mesh) -> Materials {
+    if (mesh.tets.size() > coarse.mesh.tets.size()) {
+      finer_was_begun = true;
+      throw core::NumericalError("the finer one fails");
+    }
+    return {{steel}, {}};
+  };
+  ToleranceOptions options;
+  options.modes = {.count = 2, .up_to_hz = {}};
+  options.first_order = 3;
+  options.last_order = 4;
+  options.levels = 2;
+  options.tolerance = 1e-6;
+  const Refined refined = refine_to_tolerance(part, options);
+  core::set_memory_limit(0.0);
+  EXPECT_TRUE(finer_was_begun) << refined.estimate.held_back_by;
+  EXPECT_NE(refined.estimate.held_back_by.find("the finer one fails"), std::string::npos);
+  EXPECT_EQ((refined.model.K - coarse.K).norm(), 0.0);
+  EXPECT_EQ((refined.model.M - coarse.M).norm(), 0.0);
+  EXPECT_EQ(refined.factored.factor.rows(), coarse.K.rows());
+}
+
+}  // namespace
+}  // namespace thinwall::fem::solution_bytes_test
