@@ -18,7 +18,7 @@ namespace {
 constexpr double tets_per_cube = 8.485281374238570;
 constexpr double most_tets = 2e7;
 constexpr double most_dofs = 5e6;
-constexpr double most_first_dofs = 1e6;  // at order 2, of a first mesh; an estimate, and fewer are solved
+constexpr double most_first_dofs = 1e6;  // of a first mesh at order 2; a rough estimate, hence above what is solved
 
 /// Parts that TetGen meshes: boxes with a given element size.
 bool by_tetgen(const setup::Part& part) {
@@ -110,8 +110,9 @@ void check_surface_size(const Case& source, Findings& findings) {
   const auto length = [](double value) { return core::readable_text(value, core::kind::length); };
   const std::string wall = "walls of " + length(2.0 * imported.volume_m3 / area_of(imported.surface)) + " on the whole";
   const std::string many = "about " + core::readable_text(dofs, core::kind::number) + " degrees of freedom" +
-                           (to_tolerance ? " at order 2" : "") + ", at most " +
-                           core::readable_text(most, core::kind::number) + " are solved; ";
+                           (to_tolerance ? " at order 2, and a first mesh of more than about " : ", at most ") +
+                           core::readable_text(most, core::kind::number) +
+                           (to_tolerance ? " is not made; " : " are solved; ");
   if (part.mesh.element_size) {
     findings.report("part.mesh.element_size",
                     length(*part.mesh.element_size) + " would make " + many + "take larger elements or a lower order");

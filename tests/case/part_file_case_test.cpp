@@ -130,7 +130,8 @@ TEST(PartFile, AFoilIsRefusedBeforeItIsMeshed) {
   for (const double thickness : {1e-6, 1e-5}) {
     write_plate(folder.path / "foil.stl", Eigen::Vector3d::Zero(), 0, thickness);
     expect_problem(foil, folder.path,
-                   "at order 2, at most 1e+06 are solved; check part.unit, or give part.mesh.element_size");
+                   "at order 2, and a first mesh of more than about 1e+06 is not made; check part.unit, or give "
+                   "part.mesh.element_size");
     EXPECT_EQ(problem_of(foil + "\n[part.mesh]\nelement_size = \"5 mm\"", folder.path), "no problem");
     expect_problem(foil + "\n[part.mesh]\nelement_size = \"0.01 mm\"", folder.path, "take larger elements");
   }
