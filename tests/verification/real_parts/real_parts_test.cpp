@@ -87,8 +87,11 @@ TEST_P(RealParts, AreMeshedAndSolvedToTheTolerance) {
   EXPECT_LE(model.K.rows(), options.largest_dofs);
   EXPECT_EQ(found.refined.modes.rigid_motions, 6);
   EXPECT_GT(f(0), 0.0);
-  // The mass is the surface's volume, by the divergence theorem over other triangles than the mesh's.
-  EXPECT_NEAR(model.mass.mass_kg / (aluminium.density_kg_m3 * repair.volume_m3), 1.0, 0.2 * options.tolerance);
+  // The mass is the surface's volume, by the divergence theorem over other triangles than the mesh's: to the share of
+  // the tolerance that curved elements have, and in any case to the estimate.
+  const double missed = std::abs(model.mass.mass_kg / (aluminium.density_kg_m3 * repair.volume_m3) - 1.0);
+  EXPECT_LE(missed, found.met ? 0.4 * options.tolerance : found.frequency_error);
+  std::printf("  volume off by %.1e\n", missed);
   if (!slow) return;
   const Eigen::VectorXd fine = fine_frequencies(repair.surface, 5);
   const double error = (f.array() / fine.array() - 1.0).abs().maxCoeff();
