@@ -156,6 +156,7 @@ CurvedMesh curved_mesh(const mesh::TriangleSurface& surface, const mesh::SmoothP
   mesh::TetMesh mesh = mesh::fitted_beneath_curves(patches, std::move(chords.mesh));
   auto shape = std::make_shared<const CubicShape>(curved_onto(patches, mesh, first_order_on(mesh, options)));
   const double error = shape->volume_m3 / mesh::volume(surface) - 1.0;
+  if (!std::isfinite(error)) throw core::NumericalError("the curved elements of a mesh have no finite volume");
   SurfaceFit fit{level, std::move(chords.mesher), error, chords.surface_distance_m, std::move(chords.failures)};
   const bool is_small = options.largest_dofs == 0 || 3 * mesh::lagrange_node_count(mesh, 3) <= options.largest_dofs;
   return {{std::move(mesh), std::move(fit), std::move(shape)}, std::abs(chords.volume_error_relative), is_small};
@@ -190,9 +191,15 @@ std::optional<CurvedMesh> best_curved_mesh(const mesh::TriangleSurface& surface,
 /// of what the volume between the vertices is off, in both directions of the surface.
 bool suffices(const CurvedMesh& curved, const ClosedPartOptions& options) {
   if (curved.off() <= share_of_curves * options.tolerance) return true;
-  if (curved.off() > most_off) return false;
+  if (!(curved.off() <= most_off)) return false;
   const double smaller = curved.chords_off / (share_of_surface * options.tolerance);
   return curved.is_round || smaller * static_cast<double>(curved.mesh.mesh.tets.size()) > most_straight;
+}
+
+/// True if the first two orders on the mesh are within the bound on degrees of freedom.
+bool can_be_solved(const mesh::TetMesh& mesh, const ClosedPartOptions& options) {
+  const int order = first_order_on(mesh, options) + 1;
+  return options.largest_dofs == 0 || 3 * mesh::lagrange_node_count(mesh, order) <= options.largest_dofs;
 }
 
 /// The patches of a surface; null if all of them are planar, so that straight elements follow them.
@@ -204,19 +211,30 @@ std::shared_ptr<const mesh::SmoothPatches> curved_patches(const mesh::TriangleSu
 }
 
 /// The mesh of a level: curved where the surface is and the part has one material, for elements of several are cut
-/// after they are made; straight where that fails. Where no straight mesh can be had either, the best curved one.
+/// after they are made; straight where that fails. Where no straight mesh can be had or solved either, the best curved
+/// one.
 FirstMesh mesh_of_level(const mesh::TriangleSurface& surface, const mesh::SmoothPatches* patches,
                         const ClosedPartOptions& options, int level) {
   std::optional<CurvedMesh> curved;
   if (patches != nullptr) curved = best_curved_mesh(surface, *patches, options, level);
   if (curved && suffices(*curved, options)) return std::move(curved->mesh);
+  const bool is_usable = curved && curved->off() <= volume_of_chords;
   try {
-    return straight_mesh(surface, options, level);
+    FirstMesh straight = straight_mesh(surface, options, level);
+    if (!is_usable || can_be_solved(straight.mesh, options)) return straight;
   } catch (const core::NumericalError&) {
     core::check_interrupt();
-    if (!curved || curved->off() > volume_of_chords) throw;
+    if (!is_usable) throw;
   }
   return std::move(curved->mesh);
+}
+
+/// The options of the levels after the first one, whose orders are those of the first.
+ClosedPartOptions of_finer_levels(const ClosedPartOptions& options, const std::vector<FirstMesh>& meshes) {
+  ClosedPartOptions result = options;
+  if (!meshes.empty()) result.first_order = first_order_on(meshes.front().mesh, options);
+  result.first_dofs = 0;
+  return result;
 }
 
 }  // namespace
@@ -240,8 +258,10 @@ SolidPart solid_part(const mesh::TriangleSurface& surface, const Material& mater
   };
   const auto curved = options.materials ? nullptr : curved_patches(surface);
   part.mesh = [&surface, &options, &meshes, curved](int level) {
-    meshes.push_back(level == 0 && options.first ? *options.first
-                                                 : mesh_of_level(surface, curved.get(), options, level));
+    meshes.push_back(
+        level == 0 && options.first
+            ? *options.first
+            : mesh_of_level(surface, curved.get(), level == 0 ? options : of_finer_levels(options, meshes), level));
     return meshes.back().mesh;
   };
   return part;
@@ -289,7 +309,8 @@ ToleranceOptions steps_of(const mesh::TriangleSurface& surface, const ClosedPart
 }  // namespace
 
 int first_order_on(const mesh::TetMesh& mesh, const ClosedPartOptions& options) {
-  return first_order_on(mesh, ToleranceOptions{.first_order = options.first_order,
+  return first_order_on(mesh, ToleranceOptions{.modes = options.modes,
+                                               .first_order = options.first_order,
                                                .largest_dofs = options.largest_dofs,
                                                .first_dofs = options.first_dofs});
 }

@@ -79,9 +79,9 @@ struct [[nodiscard]] ClosedPart {
 /// tolerance, a body that is round rather than thin gets isotropic elements, and then chords are half as far off and
 /// turn 0.7 times as far. Where that fails, and with several materials, elements are straight, and the turning angle is
 /// as small as 0.2 · tolerance on the volume requires; of a round body, and where these would be tens of thousands, or
-/// cannot be made, the best curved mesh is taken, whose error the estimate tells. If a finer level cannot be meshed,
-/// straight elements of the first level made 0.7^level times as large are used instead. Each mesh is appended to
-/// `meshes`, which must outlive the part, as must `surface` and `options`.
+/// cannot be made or exceed largest_dofs, the best curved mesh is taken, whose error the estimate tells. If a finer
+/// level cannot be meshed, straight elements of the first level made 0.7^level times as large are used instead. Each
+/// mesh is appended to `meshes`, which must outlive the part, as must `surface` and `options`.
 [[nodiscard]] SolidPart solid_part(const mesh::TriangleSurface& surface, const Material& material,
                                    const ClosedPartOptions& options, std::vector<FirstMesh>& meshes);
 

@@ -138,19 +138,27 @@ double error_ratio(int order, double exponent) {
   return std::max(0.5, std::pow((order - 0.5) / (order + 0.5), 4.0 * exponent));
 }
 
+/// The step before the last one, if it is of the same mesh and of the usual order at least; otherwise null.
+const RefinementStep* usual_step_before(const std::vector<RefinementStep>& steps, int usual_order) {
+  if (steps.size() < 2) return nullptr;
+  const RefinementStep& before = steps[steps.size() - 2];
+  return before.level == steps.back().level && before.order >= usual_order ? &before : nullptr;
+}
+
 /// The error of the last order over the last change: r / (1 − r) by the law of error_ratio(). Beside a re-entrant edge
 /// the last two changes on one mesh may have a ratio q below r. Then the change has a smooth share, too, which falls by
 /// ρ = 1/30 an order, the most that was seen, where the singular one falls by r (docs/theory/elements.md): of the last
 /// change the share s = r (q − ρ) / (q (r − ρ)) is singular, and the error is s r / (1 − r) + (1 − s) ρ / (1 − ρ), at
-/// least as the other edges have it.
+/// least as the other edges have it. Changes of orders below `usual_order` do not tell q, for at the lowest orders thin
+/// walls are locked.
 double error_over_change(const std::vector<RefinementStep>& steps, std::optional<double> RefinementStep::*change,
-                         const Exponent& exponent) {
+                         const Exponent& exponent, int usual_order) {
   constexpr double smooth = 1.0 / 30.0;
   const RefinementStep& last = steps.back();
   const double r = error_ratio(last.order, exponent.least), others = error_ratio(last.order, exponent.otherwise);
   const double singular = r / (1.0 - r);
-  const bool one_mesh = steps.size() > 1 && steps[steps.size() - 2].level == last.level;
-  const double before = one_mesh ? (steps[steps.size() - 2].*change).value_or(0.0) : 0.0;
+  const RefinementStep* lower = usual_step_before(steps, usual_order);
+  const double before = lower != nullptr ? (lower->*change).value_or(0.0) : 0.0;
   const double q = before > 0.0 ? (last.*change).value_or(0.0) / before : r;
   const double share = q > smooth ? std::min(1.0, r * (q - smooth) / (q * (r - smooth))) : 0.0;
   const double error = share * singular + (1.0 - share) * smooth / (1.0 - smooth);
@@ -163,15 +171,17 @@ double error_over_change(const std::vector<RefinementStep>& steps, std::optional
 struct Errors {
   double frequency = 0.0, receptance = 0.0, entry = 0.0;
   std::string worst_receptance{};
+  double shape = 0.0;  // the part of `frequency` that the shape of the elements has
   [[nodiscard]] double worst() const { return std::max(frequency, receptance); }
 };
 
 /// The errors of the last two solutions on one mesh: of the higher e d, with d the last changes and e the
 /// error_over_change(), and of the lower (1 + e) d.
-std::pair<Errors, Errors> errors_of_last_two(const std::vector<RefinementStep>& steps, const Exponents& exponent) {
+std::pair<Errors, Errors> errors_of_last_two(const std::vector<RefinementStep>& steps, const Exponents& exponent,
+                                             int usual_order) {
   const RefinementStep& last = steps.back();
-  const double f = error_over_change(steps, &RefinementStep::frequency_change, exponent.frequency);
-  const double r = error_over_change(steps, &RefinementStep::receptance_change, exponent.receptance);
+  const double f = error_over_change(steps, &RefinementStep::frequency_change, exponent.frequency, usual_order);
+  const double r = error_over_change(steps, &RefinementStep::receptance_change, exponent.receptance, usual_order);
   const double frequency = last.frequency_change.value_or(0.0), receptance = last.receptance_change.value_or(0.0);
   const double entry = last.entry_change.value_or(0.0);
   return {{(1.0 + f) * frequency, (1.0 + r) * receptance, (1.0 + r) * entry, last.worst_receptance},
@@ -234,6 +244,13 @@ Refined finished(Refinement&& r) {
   return {std::move(s.model), std::move(*s.factored), std::move(s.modes), std::move(estimate), best.level};
 }
 
+/// Adds what the shape of a model's elements errs by.
+void add_shape(const SolidPart& part, const Model& model, Errors& errors) {
+  if (!part.shape_error) return;
+  errors.shape = part.shape_error(model);
+  errors.frequency += errors.shape;
+}
+
 void add_step(Refinement& r, RefinementStep step) {
   if (r.options.solved) r.options.solved(step);
   r.estimate.steps.push_back(std::move(step));
@@ -245,11 +262,9 @@ std::pair<Errors, Errors> compared(Refinement& r, int level, const Solution& bel
   RefinementStep step{level, model.nodes.order, model.K.rows(), frequency_change(below.modes, above.modes), {}};
   compare_receptances(below.responses, above.responses, above.modes, r.options.points, step);
   add_step(r, std::move(step));
-  auto errors = errors_of_last_two(r.estimate.steps, r.exponent);
-  if (r.part.shape_error) {
-    errors.first.frequency += r.part.shape_error(below.model);
-    errors.second.frequency += r.part.shape_error(above.model);
-  }
+  auto errors = errors_of_last_two(r.estimate.steps, r.exponent, r.usual_order);
+  add_shape(r.part, below.model, errors.first);
+  add_shape(r.part, above.model, errors.second);
   return errors;
 }
 
@@ -302,19 +317,26 @@ void raise_order(Refinement& r) {
   }
 }
 
+/// True if the shape of the elements alone misses the tolerance, which higher orders do not mend.
+bool shape_misses(const Refinement& r) {
+  return r.now->solution.model.nodes.order >= r.usual_order && r.now->errors.shape >= r.options.tolerance;
+}
+
 /// True if raising the order on this mesh may meet the tolerance, or if it is below the usual one. Away from re-entrant
 /// edges one order reduces the error by a factor of ten, at most thirty. Beside them the orders left reduce it at best
 /// by q² each, with q the ratio of the last two changes on this mesh; by a factor of five each before that ratio is
 /// known (thirteen by two orders was seen).
 bool orders_may_do(const Refinement& r) {
   if (r.now->solution.model.nodes.order < r.usual_order) return true;
+  if (shape_misses(r)) return false;
   const double error = r.now->errors.worst();
   if (!r.options.reentrant_edges) return error <= 30.0 * r.options.tolerance;
   const auto change = [](const RefinementStep& s) {
     return std::max(s.frequency_change.value_or(0.0), s.receptance_change.value_or(0.0));
   };
   const auto& steps = r.estimate.steps;
-  const double last = change(steps.back()), before = change(steps[steps.size() - 2]);  // 0 of a level's first order
+  const RefinementStep* lower = usual_step_before(steps, r.usual_order);
+  const double last = change(steps.back()), before = lower != nullptr ? change(*lower) : 0.0;
   const double of_one = before > 0.0 ? std::pow(std::min(1.0, last / before), 2) : 0.2;
   return error * std::pow(of_one, r.options.last_order - steps.back().order) <= r.options.tolerance;
 }
@@ -350,6 +372,17 @@ bool takes_finer_level(Refinement& r) {
   return fitting;
 }
 
+/// True if no order brings the error of this mesh near the tolerance, because most of it is that of its shape; which
+/// ends up in held_back_by, unless a finer mesh was tried and its failure stands there.
+bool shape_ends(Refinement& r) {
+  const double shape = r.now->errors.shape;
+  if (!shape_misses(r) || r.now->errors.worst() > 2.0 * shape) return false;
+  if (r.estimate.held_back_by.empty())
+    r.estimate.held_back_by =
+        "the elements follow the surface's volume to " + core::number_text(100.0 * shape, 2) + " % only";
+  return true;
+}
+
 /// Refines until the tolerance is met, or nothing is left that could be solved.
 void refine(Refinement& r) {
   const ToleranceOptions& options = r.options;
@@ -367,7 +400,7 @@ void refine(Refinement& r) {
       more_levels = takes_finer_level(r);
       continue;
     }
-    if (order == options.last_order) return;
+    if (shape_ends(r) || order == options.last_order) return;
     if (!fits(r.mesh, order + 1, options)) {
       r.estimate.held_back_by = too_large;
       return;
@@ -391,8 +424,10 @@ void refine_in_time(Refinement& r, double seconds_gone) {
 }  // namespace
 
 int first_order_on(const mesh::TetMesh& mesh, const ToleranceOptions& options) {
+  // Low orders may have no mode at all below the frequency up to which modes are wanted, for thin walls are too stiff.
+  const std::int64_t most = options.modes.up_to_hz ? options.largest_dofs : options.first_dofs;
   const auto is_small = [&](int order) {
-    return 3 * mesh::lagrange_node_count(mesh, order) <= options.first_dofs && fits(mesh, order, options);
+    return (most == 0 || 3 * mesh::lagrange_node_count(mesh, order) <= most) && fits(mesh, order, options);
   };
   int first = options.first_order;
   while (options.first_dofs > 0 && first > 1 && !is_small(first + 1)) --first;
@@ -404,7 +439,8 @@ void require_fit(const mesh::TetMesh& mesh, const ToleranceOptions& options) {
   if (fits(mesh, order, options)) return;
   throw core::InputError("the coarsest mesh has " + std::to_string(3 * mesh::lagrange_node_count(mesh, order)) +
                          " degrees of freedom at order " + std::to_string(order) + ", more than the bound of " +
-                         std::to_string(options.largest_dofs) + "; allow more, or simplify the part");
+                         std::to_string(options.largest_dofs) + "; check part.unit, give part.mesh.element_size, " +
+                         (order > 2 ? "lower part.mesh.order, " : "") + "or simplify the part");
 }
 
 Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& asked) {
@@ -433,7 +469,7 @@ Estimate estimate_by_next_order(const Model& model, const Factored& factored, co
   const double least = options.reentrant_edges ? reentrant_edge_exponent : 1.0;
   Estimate estimate;
   estimate.steps = {{0, model.nodes.order, model.K.rows(), {}, {}}, step};
-  const Errors errors = errors_of_last_two(estimate.steps, {{least, 1.0}, {least, 1.0}}).first;
+  const Errors errors = errors_of_last_two(estimate.steps, {{least, 1.0}, {least, 1.0}}, 0).first;
   estimate.frequency = errors.frequency;
   estimate.receptance = errors.receptance;
   estimate.entry = errors.entry;

@@ -92,7 +92,8 @@ struct [[nodiscard]] Refined {
 
 /// The lower of the first two orders that refine_to_tolerance() solves on the coarsest mesh: options.first_order, or,
 /// if options.first_dofs is not 0, the highest order below it, 1 at least, for which the next one has no more rows than
-/// first_dofs and largest_dofs.
+/// first_dofs and largest_dofs. Where modes are wanted up to a frequency, only largest_dofs lowers it, for low orders
+/// may have no mode below that frequency.
 [[nodiscard]] int first_order_on(const mesh::TetMesh& mesh, const ToleranceOptions& options);
 
 /// Throws InputError if the first two orders on the coarsest mesh, from first_order_on() on, exceed
@@ -106,7 +107,8 @@ void require_fit(const mesh::TetMesh& mesh, const ToleranceOptions& options);
 /// is not if it would be in vain: the changes of one order on two successive levels have the ratio q, at most 1, and an
 /// error e is at best e q²ⁿ after the n levels left, for convergence may become faster; more than twice the tolerance
 /// ends the refinement. Orders are judged likewise beside re-entrant edges, by the ratio of two successive changes on
-/// one mesh; those up to first_order + 1 are taken in any case where they were lowered. A solution after the first two
+/// one mesh; those up to first_order + 1 are taken in any case where they were lowered, and no further
+/// ones for an error that is mostly that of the shape and above the tolerance. A solution after the first two
 /// that fails, for memory, for time_budget_s or for its mesh, ends the
 /// refinement, too; the result is the solution of the least estimated error. Receptances between the points are
 /// compared entry by entry, relative to the largest √(B_ii B_jj), which is held to the tolerance, and relative to each

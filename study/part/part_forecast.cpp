@@ -82,6 +82,13 @@ void require_faces(const PartInput& source, const mesh::TetMesh& mesh) {
     (void)mesh::select(mesh, boundary, clamp.region, clamp.name);
 }
 
+/// The first order of a refinement to a tolerance that begins on this mesh.
+int first_order_of(const PartInput& source, const mesh::TetMesh& mesh) {
+  fem::ClosedPartOptions options;
+  options.modes = setup::mode_options(source);
+  return fem::first_order_on(mesh, options);
+}
+
 }  // namespace
 
 std::optional<setup::PartSize> forecast(const PartInput& source, const std::shared_ptr<const fem::FirstMesh>& first) {
@@ -93,7 +100,7 @@ std::optional<setup::PartSize> forecast(const PartInput& source, const std::shar
   setup::PartSize result;
   result.elements = static_cast<double>(mesh.tets.size());
   const bool to_tolerance = kind == setup::ShapeKind::surface && !part.mesh.element_size;
-  const int usual = to_tolerance                     ? fem::first_order_on(mesh, fem::ClosedPartOptions{}) + 1
+  const int usual = to_tolerance                     ? first_order_of(source, mesh) + 1
                     : kind == setup::ShapeKind::mesh ? part.imported->mesh->solid.nodes.order
                                                      : 2;
   result.order = std::max(to_tolerance ? 2 : 1, part.mesh.order.value_or(std::max(2, usual)));

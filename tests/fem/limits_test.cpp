@@ -349,6 +349,46 @@ TEST(Refinement, GoesThroughTheOrdersOfAMeshBeforeAFinerOneWhereTheyMaySuffice) 
   EXPECT_EQ(meshed, (std::vector<int>{0}));
 }
 
+/// Higher orders do not follow the surface better, a finer mesh does.
+TEST(Refinement, TakesAFinerMeshNotHigherOrdersWhereTheShapeMissesTheTolerance) {
+  std::vector<int> meshed;
+  SolidPart part = divided(meshed, [](int level) { return 1 << level; });
+  part.shape_error = [](const Model& model) { return model.mesh.tets.size() > 12 ? 0.0 : 0.06; };
+  ASSERT_LE(part.mesh(0).tets.size(), 12U);
+  meshed.clear();
+  ToleranceOptions options = far_from_tolerance();
+  options.first_order = 2;
+  options.last_order = 6;
+  options.tolerance = 0.05;
+  const Refined finer = refine_to_tolerance(part, options);
+  EXPECT_TRUE(finer.estimate.met);
+  EXPECT_EQ(meshed, (std::vector<int>{0, 1}));
+  EXPECT_EQ(finer.estimate.steps[1].order, 3);
+  EXPECT_EQ(finer.estimate.steps[2].level, 1);
+  options.levels = 1;
+  const Refined only = refine_to_tolerance(part, options);
+  EXPECT_FALSE(only.estimate.met);
+  EXPECT_EQ(only.estimate.steps.size(), 2U);
+  EXPECT_EQ(only.estimate.held_back_by, "the elements follow the surface's volume to 6 % only");
+}
+
+/// The same solution of order 4 has the same estimate, whether orders 1 and 2 came before it or not.
+TEST(Refinement, OrdersBelowTheUsualOnesDoNotLowerTheEstimate) {
+  std::vector<int> meshed;
+  ToleranceOptions options = far_from_tolerance();
+  options.reentrant_edges = true;
+  options.first_order = 3;
+  options.last_order = 4;
+  options.levels = 1;
+  const SolidPart part = divided(meshed, [](int) { return 1; });
+  const Refined usual = refine_to_tolerance(part, options);
+  options.first_dofs = 1;
+  const Refined from_lowest = refine_to_tolerance(part, options);
+  ASSERT_EQ(from_lowest.estimate.steps.size(), 4U);
+  EXPECT_EQ(from_lowest.model.nodes.order, usual.model.nodes.order);
+  EXPECT_NEAR(from_lowest.estimate.frequency / usual.estimate.frequency, 1.0, 0.02);
+}
+
 TEST(RoundOff, OfTheLowestFrequencyIsWhatRoundingTheEntriesDoes) {
   for (const double thickness : {0.01, 0.002}) {
     const mesh::Box plate{{0.4, 0.4, thickness}};
