@@ -1,7 +1,7 @@
 #pragma once
 // The headers of fem/ that other programs may include.
-// Internal: curved_boundary, curved_element, disc_quadrature, edge_exponent, elastic_clamps, face_points,
-// harmonic_extension, interpolation, node_graph, quadrature, receptance_change, reference_element,
+// Internal: curved_boundary, curved_element, disc_quadrature, edge_exponent, elastic_clamps, error_of_orders,
+// face_points, harmonic_extension, interpolation, node_graph, quadrature, receptance_change, reference_element,
 // solution_bytes.
 
 #include "core/eigen_alignment.hpp"

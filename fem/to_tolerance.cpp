@@ -14,9 +14,10 @@
 #include "core/time_limit.hpp"
 #include "core/units.hpp"
 #include "fem/determined_motions.hpp"
-#include "fem/edge_exponent.hpp"
+#include "fem/error/edge_exponent.hpp"
+#include "fem/error/error_of_orders.hpp"
+#include "fem/error/receptance_change.hpp"
 #include "fem/interpolation.hpp"
-#include "fem/receptance_change.hpp"
 #include "fem/size/solution_bytes.hpp"
 
 namespace thinwall::fem {
@@ -106,16 +107,6 @@ bool fits(const mesh::TetMesh& mesh, int order, const ToleranceOptions& options)
   return options.largest_dofs == 0 || 3 * mesh::lagrange_node_count(mesh, order) <= options.largest_dofs;
 }
 
-/// The exponents by which an error falls: the least one of the part's edges, and that of the edges that are not
-/// re-entrant; 1 where all is regular.
-struct Exponent {
-  double least = 1.0, otherwise = 1.0;
-};
-
-struct Exponents {
-  Exponent frequency, receptance;
-};
-
 /// The exponent of the edges of a part's clamps for frequencies; 1 if it has none. Of several materials the largest
 /// Poisson's ratio counts.
 double exponent_of_clamps(const SolidPart& part, const Materials& materials) {
@@ -129,80 +120,6 @@ Exponents exponents(const SolidPart& part, const Materials& materials, const Tol
   const double clamps = exponent_of_clamps(part, materials);
   if (!options.reentrant_edges) return {{clamps, clamps}, {}};
   return {{reentrant_edge_exponent, clamps}, {reentrant_edge_exponent, 1.0}};
-}
-
-/// The ratio r of the error at `order` to the error at the order below it (docs/theory/elements.md). Beside an edge of
-/// exponent λ the error is that of the squares of the coefficients above the order p, Σ_{k>p} k^(−4λ−1), which is (p +
-/// ½)^−4λ up to a factor. The law holds for high orders only; its values below 1/2 are not trusted.
-double error_ratio(int order, double exponent) {
-  return std::max(0.5, std::pow((order - 0.5) / (order + 0.5), 4.0 * exponent));
-}
-
-/// The step before the last one, if it is of the same mesh and of the usual order at least; otherwise null.
-const RefinementStep* usual_step_before(const std::vector<RefinementStep>& steps, int usual_order) {
-  if (steps.size() < 2) return nullptr;
-  const RefinementStep& before = steps[steps.size() - 2];
-  return before.level == steps.back().level && before.order >= usual_order ? &before : nullptr;
-}
-
-/// The error of the last order over the last change: r / (1 − r) by the law of error_ratio(). Beside a re-entrant edge
-/// the last two changes on one mesh may have a ratio q below r. Then the change has a smooth share, too, which falls by
-/// ρ = 1/30 an order, the most that was seen, where the singular one falls by r (docs/theory/elements.md): of the last
-/// change the share s = r (q − ρ) / (q (r − ρ)) is singular, and the error is s r / (1 − r) + (1 − s) ρ / (1 − ρ), at
-/// least as the other edges have it. Changes of orders below `usual_order` do not tell q, for at the lowest orders thin
-/// walls are locked.
-double error_over_change(const std::vector<RefinementStep>& steps, std::optional<double> RefinementStep::*change,
-                         const Exponent& exponent, int usual_order) {
-  constexpr double smooth = 1.0 / 30.0;
-  const RefinementStep& last = steps.back();
-  const double r = error_ratio(last.order, exponent.least), others = error_ratio(last.order, exponent.otherwise);
-  const double singular = r / (1.0 - r);
-  const RefinementStep* lower = usual_step_before(steps, usual_order);
-  const double before = lower != nullptr ? (lower->*change).value_or(0.0) : 0.0;
-  const double q = before > 0.0 ? (last.*change).value_or(0.0) / before : r;
-  const double share = q > smooth ? std::min(1.0, r * (q - smooth) / (q * (r - smooth))) : 0.0;
-  const double error = share * singular + (1.0 - share) * smooth / (1.0 - smooth);
-  return std::max(error, std::min(singular, others / (1.0 - others)));
-}
-
-/// The estimated errors of a solution. That of an entry by its own magnitude is told, and held to no tolerance: a stiff
-/// direction may be thousands of times stiffer than the one that chatters, and its error falls slowly, for it comes
-/// from the edge of the loaded disc, which no edge of an element follows.
-struct Errors {
-  double frequency = 0.0, receptance = 0.0, entry = 0.0;
-  std::string worst_receptance{};
-  double shape = 0.0;  // the part of `frequency` that the shape of the elements has
-  [[nodiscard]] double worst() const { return std::max(frequency, receptance); }
-};
-
-/// The errors of the last two solutions on one mesh: of the higher e d, with d the last changes and e the
-/// error_over_change(), and of the lower (1 + e) d.
-std::pair<Errors, Errors> errors_of_last_two(const std::vector<RefinementStep>& steps, const Exponents& exponent,
-                                             int usual_order) {
-  const RefinementStep& last = steps.back();
-  const double f = error_over_change(steps, &RefinementStep::frequency_change, exponent.frequency, usual_order);
-  const double r = error_over_change(steps, &RefinementStep::receptance_change, exponent.receptance, usual_order);
-  const double frequency = last.frequency_change.value_or(0.0), receptance = last.receptance_change.value_or(0.0);
-  const double entry = last.entry_change.value_or(0.0);
-  return {{(1.0 + f) * frequency, (1.0 + r) * receptance, (1.0 + r) * entry, last.worst_receptance},
-          {f * frequency, r * receptance, r * entry, last.worst_receptance}};
-}
-
-/// The factor by which the levels left reduce an error at best, q²ⁿ with q ≤ 1 the ratio of the last change to that of
-/// the same order on the level before; 0, for all is open, if that order was not solved there.
-double factor_of_levels(const std::vector<RefinementStep>& steps, std::optional<double> RefinementStep::*change,
-                        int left) {
-  const RefinementStep& last = steps.back();
-  const auto before = std::ranges::find_if(
-      steps, [&](const RefinementStep& s) { return s.level == last.level - 1 && s.order == last.order && s.*change; });
-  if (before == steps.end() || !(last.*change)) return 0.0;
-  return std::pow(std::min(1.0, *(last.*change) / *((*before).*change)), 2 * left);
-}
-
-/// The larger of the errors to which the levels left reduce these.
-double error_after(int left, const Errors& errors, const std::vector<RefinementStep>& steps) {
-  return std::max(errors.frequency * factor_of_levels(steps, &RefinementStep::frequency_change, left),
-                  errors.receptance * factor_of_levels(steps, &RefinementStep::receptance_change, left));
 }
 
 /// A solution on the way, with its estimated errors.

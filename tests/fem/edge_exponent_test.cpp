@@ -1,6 +1,6 @@
 // The exponents of edges against the stress function that they come from.
 
-#include "fem/edge_exponent.hpp"
+#include "fem/error/edge_exponent.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "fem/receptance_change.hpp"
+#include "fem/error/receptance_change.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "fem/edge_exponent.hpp"
+#include "fem/error/edge_exponent.hpp"
 
 #include <cassert>
 #include <cmath>

@@ -1,0 +1,45 @@
+#pragma once
+// The estimated errors of solutions of successive orders, from their changes (docs/theory/elements.md).
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fem/to_tolerance.hpp"
+
+namespace thinwall::fem {
+
+/// The exponents by which an error falls: the least one of the part's edges, and that of the edges that are not
+/// re-entrant; 1 where all is regular.
+struct Exponent {
+  double least = 1.0, otherwise = 1.0;
+};
+
+struct Exponents {
+  Exponent frequency, receptance;
+};
+
+/// The estimated errors of a solution. That of an entry by its own magnitude is told, and held to no tolerance: a stiff
+/// direction may be thousands of times stiffer than the one that chatters, and its error falls slowly, for it comes
+/// from the edge of the loaded disc, which no edge of an element follows.
+struct Errors {
+  double frequency = 0.0, receptance = 0.0, entry = 0.0;
+  std::string worst_receptance{};
+  double shape = 0.0;  // the part of `frequency` that the shape of the elements has
+  [[nodiscard]] double worst() const { return std::max(frequency, receptance); }
+};
+
+/// The step before the last one, if it is of the same mesh and of the usual order at least; otherwise null.
+[[nodiscard]] const RefinementStep* usual_step_before(const std::vector<RefinementStep>& steps, int usual_order);
+
+/// The errors of the last two solutions on one mesh, those of the lower first: (1 + e) d of the lower and e d of the
+/// higher, with d the last changes and e the error of the last order over the last change. Changes of orders below
+/// `usual_order` are not taken for the ratio of two changes.
+[[nodiscard]] std::pair<Errors, Errors> errors_of_last_two(const std::vector<RefinementStep>& steps,
+                                                           const Exponents& exponent, int usual_order);
+
+/// The larger of the errors to which so many levels more reduce these at best.
+[[nodiscard]] double error_after(int left, const Errors& errors, const std::vector<RefinementStep>& steps);
+
+}  // namespace thinwall::fem
