@@ -88,9 +88,10 @@ mesh::FacetedSurface tube(double thickness_m) {
 
 /// Plane walls take few elements however thin they are; bent ones are as long as they are thick.
 TEST(Check, FindsACoarsestMeshOfMoreUnknownsThanAreSolved) {
-  const Checked foil("[[part.supports]]\non = \"z_min\"\n", tube(0.0004));
+  const Checked foil("[part.mesh]\norder = 4\n[[part.supports]]\non = \"z_min\"\n", tube(0.0004));
   EXPECT_EQ(foil.code, 3) << foil.out;
   EXPECT_NE(foil.err.find("more than the bound of 400000"), std::string::npos) << foil.err;
+  EXPECT_NE(foil.err.find("part.mesh.order"), std::string::npos) << "a lower one fits: " << foil.err;
 }
 
 /// One point sees the three translations, three points off a line see all six motions.
