@@ -16,17 +16,19 @@ struct Exponent {
   double least = 1.0, otherwise = 1.0;
 };
 
+/// The exponents of the two quantities that a tolerance holds.
 struct Exponents {
   Exponent frequency, receptance;
 };
 
-/// The estimated errors of a solution. That of an entry by its own magnitude is told, and held to no tolerance: a stiff
+/// The estimated relative errors of a solution. That of an entry by its own magnitude is told, and held to no tolerance: a stiff
 /// direction may be thousands of times stiffer than the one that chatters, and its error falls slowly, for it comes
 /// from the edge of the loaded disc, which no edge of an element follows.
 struct Errors {
   double frequency = 0.0, receptance = 0.0, entry = 0.0;
   std::string worst_receptance{};
-  double shape = 0.0;  // the part of `frequency` that the shape of the elements has
+  double shape = 0.0;  ///< the part of `frequency` that the shape of the elements has
+  /// The larger of the two errors that a tolerance holds.
   [[nodiscard]] double worst() const { return std::max(frequency, receptance); }
 };
 
