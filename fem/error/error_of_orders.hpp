@@ -21,9 +21,9 @@ struct Exponents {
   Exponent frequency, receptance;
 };
 
-/// The estimated relative errors of a solution. That of an entry by its own magnitude is told, and held to no tolerance: a stiff
-/// direction may be thousands of times stiffer than the one that chatters, and its error falls slowly, for it comes
-/// from the edge of the loaded disc, which no edge of an element follows.
+/// The estimated relative errors of a solution. That of an entry by its own magnitude is told, and held to no
+/// tolerance: a stiff direction may be thousands of times stiffer than the one that chatters, and its error falls
+/// slowly, for it comes from the edge of the loaded disc, which no edge of an element follows.
 struct Errors {
   double frequency = 0.0, receptance = 0.0, entry = 0.0;
   std::string worst_receptance{};
