@@ -43,7 +43,7 @@ std::optional<std::string> about_tools(const Case& source, const setup::Material
          spread + "; the range of chip thickness is not published; thinwall coefficients finds those of your tool";
 }
 
-/// What a case takes of the tables of specific forces.
+/// The values of a case that are those of the tables of specific forces.
 struct TakenFromTables {
   bool K_t = false, K_r = false, exponents = false;
 };

@@ -22,7 +22,8 @@ namespace {
 /// cuts shift modes by some percent. Chosen by the cuts of cases/hajdu-2020 that were left out, after 0.02 and 0.035
 /// had been seen (docs/theory/calibration.md).
 constexpr double heard_deviation = 0.05;
-/// Of the exponent by which coefficients fall with the speed, a choice: chips are hotter and softer in faster cuts.
+/// The deviation of the exponent by which coefficients fall with the speed, a choice: chips are hotter and softer in
+/// faster cuts.
 constexpr double usual_speed_exponent = 0.2;
 constexpr std::size_t limit_draws = 60, candidate_draws = 60;
 constexpr int limit_speeds = 40, candidate_speeds = 24, candidate_depths = 12;

@@ -372,7 +372,7 @@ TEST(Refinement, TakesAFinerMeshNotHigherOrdersWhereTheShapeMissesTheTolerance) 
   EXPECT_EQ(only.estimate.held_back_by, "the elements follow the surface's volume to 6 % only");
 }
 
-/// The same solution of order 4 has the same estimate, whether orders 1 and 2 came before it or not.
+/// A solution of order 4 has one estimate, whether orders 1 and 2 came before it or not.
 TEST(Refinement, OrdersBelowTheUsualOnesDoNotLowerTheEstimate) {
   std::vector<int> meshed;
   ToleranceOptions options = far_from_tolerance();
