@@ -71,8 +71,8 @@ struct GainAt {
   complex<double> mu;
 
   [[nodiscard]] Eigen::MatrixXcd operator()(const Cut& cut) const {
-    const CutAtSpeed at_speed =
-        cut_at_speed(cut.structure, process_at(cut, point.spindle_speed_rpm), point.spindle_speed_rpm);
+    const MillingProcess process = process_at(cut, point.spindle_speed_rpm);  // to which the cut keeps a reference
+    const CutAtSpeed at_speed = cut_at_speed(cut.structure, process, point.spindle_speed_rpm);
     return loop_gain(discrete(at_speed, resolution, point.depth_m).loop, mu);
   }
 };
