@@ -12,6 +12,7 @@
 #include "linalg/eigenpairs.hpp"
 #include "linalg/external_factor.hpp"
 #include "linalg/inverse_iteration.hpp"
+#include "linalg/largest_eigenvalues.hpp"
 #include "linalg/library_threads.hpp"
 #include "linalg/ordering.hpp"
 #include "linalg/rayleigh_quotients.hpp"

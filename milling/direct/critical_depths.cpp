@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "linalg/complex_eigenvalues.hpp"
+#include "linalg/largest_eigenvalues.hpp"
 
 namespace thinwall::milling {
 
@@ -43,6 +44,12 @@ Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXcd& Z, double theta) {
 double radius_bound(const Eigen::MatrixXcd& Z) {
   const Eigen::MatrixXcd square = Z * Z;
   return std::sqrt(std::sqrt((square * square).norm()));
+}
+
+/// True if the largest eigenvalues of Z are found in less time than all of them.
+bool is_large(const Eigen::MatrixXcd& Z) {
+  constexpr Index rows = 60;
+  return Z.rows() >= rows;
 }
 
 using Path = CriticalDepths::Path;
@@ -182,18 +189,36 @@ double CriticalDepths::bound_of(Stop& stop) {
 }
 
 /// False if no eigenvalue can be larger than `smallest`. Two products tell more than the norm, at a third of the time
-/// of the eigenvalues, and are worth it where the norm is not far above.
+/// of all eigenvalues, and are worth it where the norm is not far above; the largest eigenvalues of a large Z take
+/// less.
 bool CriticalDepths::reaches(Stop& stop, double smallest) {
-  if (stop.norm <= smallest) return false;
-  return (!stop.bound && stop.norm > 2.0 * smallest) || bound_of(stop) > smallest;
+  if (stop.norm <= smallest || (stop.bound && *stop.bound <= smallest)) return false;
+  return stop.norm > 2.0 * smallest || is_large(stop.Z) || bound_of(stop) > smallest;
+}
+
+/// Finds the eigenvalues above `smallest`; those of a large Z down to a part of it, for a search that goes on deeper.
+void CriticalDepths::find_above(Stop& stop, double theta_rad, double smallest) {
+  constexpr double deeper = 0.4;
+  const bool is_real = theta_rad == 0.0 || theta_rad == pi;
+  if (!is_real && is_large(stop.Z)) {
+    if (const auto largest = linalg::largest_eigenvalues(stop.Z, deeper * smallest)) {
+      stop.nu = -*largest;
+      stop.known_above = deeper * smallest;
+      return;
+    }
+  }
+  stop.nu = eigenvalues_of(stop.Z, theta_rad);
+  stop.known_above = 0.0;
 }
 
 std::vector<Path> CriticalDepths::reached_at(double theta_rad, double depth_limit_m) {
   const double smallest = 0.5 / depth_limit_m;
   Stop& stop = at(theta_rad);
   std::vector<Path> reached;
-  if (stop.nu.size() == 0 && !reaches(stop, smallest)) return reached;
-  if (stop.nu.size() == 0) stop.nu = eigenvalues_of(stop.Z, theta_rad);
+  if (smallest < stop.known_above) {
+    if (!reaches(stop, smallest)) return reached;
+    find_above(stop, theta_rad, smallest);
+  }
   for (const complex<double> nu : stop.nu) {
     if (std::norm(nu) > smallest * smallest) reached.push_back({nu});
   }

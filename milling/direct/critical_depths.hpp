@@ -2,6 +2,7 @@
 // All depths at which a multiplier crosses the unit circle at one speed, directly: no search over depths.
 
 #include <Eigen/Core>
+#include <cmath>
 #include <complex>
 #include <map>
 #include <optional>
@@ -15,8 +16,8 @@ namespace thinwall::milling {
 /// positive eigenvalues ν of −Z(e^{iθ}) as θ runs over the half circle. The eigenvalues are followed between stops;
 /// where the nearest match is not clear or a path so near to the real axis that it could touch it the step is halved. A
 /// path that crosses the axis is brought to it by to_axis(). At θ = π (and 0) real eigenvalues count as they are.
-/// Eigenvalues are found only where a bound of them says that the depth can reach one, and kept, so that a search to a
-/// greater depth costs little more.
+/// Eigenvalues are found only where a bound of them says that the depth can reach one, of large Z only those that can
+/// (linalg::largest_eigenvalues()), and kept, so that a search to a greater depth costs little more.
 class CriticalDepths {
  public:
   /// Keeps `gain`, whose references must outlive the search.
@@ -44,9 +45,9 @@ class CriticalDepths {
     std::complex<double> nu;
   };
 
-  /// The eigenvalues with 1/Re ν < depth_m, and |Im ν| of at most that share of Re ν, at all angles that up_to() has
-  /// looked at so far. Between two of these a path may come nearer: steps are halved only where one could cross the
-  /// axis. Cost: that of reading them.
+  /// The eigenvalues with 1/Re ν < depth_m, at most twice as deep as up_to() was asked for, and |Im ν| of at most that
+  /// share of Re ν, at all angles that up_to() has looked at so far. Between two of these a path may come nearer: steps
+  /// are halved only where one could cross the axis. Cost: that of reading them.
   [[nodiscard]] std::vector<NearAxis> near_axis(double depth_m, double share) const;
 
  private:
@@ -54,12 +55,14 @@ class CriticalDepths {
     Eigen::MatrixXcd Z;
     double norm = 0.0;            ///< of Z, no less than any eigenvalue's modulus
     std::optional<double> bound;  ///< of these moduli, sharper; none as long as it was not needed
-    Eigen::VectorXcd nu;          ///< of −Z; empty as long as no depth asked for them
+    Eigen::VectorXcd nu;          ///< of −Z, those above `known_above`
+    double known_above = INFINITY;
   };
 
   Stop& at(double theta_rad);
   static double bound_of(Stop& stop);
   static bool reaches(Stop& stop, double smallest);
+  static void find_above(Stop& stop, double theta_rad, double smallest);
   /// Eigenvalues of −Z that a depth within twice the limit can reach.
   std::vector<Path> reached_at(double theta_rad, double depth_limit_m);
   void between(double from_rad, const std::vector<Path>& from, double to_rad, std::vector<Path>& to, int halvings,
