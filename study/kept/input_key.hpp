@@ -53,8 +53,9 @@ class InputBytes {
     add(text.size());
     bytes_ += text;
   }
-  /// Adds a path as it is written.
-  void add(const std::filesystem::path& path) { add(path.string()); }
+  /// Adds the name of a file without its folders: the input holds what stands in the file, and a case that is named by
+  /// another path is the same case.
+  void add(const std::filesystem::path& path) { add(path.filename().string()); }
   /// Adds a mark that tells if the value is there, and the value.
   template <class T>
   void add(const std::optional<T>& value) {

@@ -296,6 +296,20 @@ TEST_F(InputKeyOfFiles, AChangedFileChangesTheKeyWhereverItIsNamed) {
   expect_contents_in_keys(source, 6);
 }
 
+TEST(InputKey, AFileKeepsItsKeyWhereItsFolderIsNamedOtherwise) {
+  setup::Setup source = full_setup();
+  setup::SurfaceShape shape;
+  shape.file.path = "cases/wall/surface.stl";
+  source.part->shape = shape;
+  const std::string key = study::structure_key(source);
+  shape.file.path = "/home/user/cases/wall/surface.stl";
+  source.part->shape = shape;
+  EXPECT_EQ(study::structure_key(source), key);
+  shape.file.path = "cases/wall/surface.obj";
+  source.part->shape = shape;
+  EXPECT_NE(study::structure_key(source), key) << "another format";
+}
+
 TEST(InputKey, ARobotThatFollowsThePathHasAnotherKeyThanOneThatStays) {
   setup::Setup source = full_setup();
   source.part.reset();
