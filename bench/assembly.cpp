@@ -57,7 +57,8 @@ void measure(int cells, int order) {
   all = fem::assemble(nodes, {210e9, 0.3, 7850.0});
   const double again_s = watch.lap();
   std::printf(
-      "order %d: %8zu tets, %8td DOFs, nodes %5.2f s, assembly of K and M %5.2f s, again %5.2f s, K holds %td, peak %.2f "
+      "order %d: %8zu tets, %8td DOFs, nodes %5.2f s, assembly of K and M %5.2f s, again %5.2f s, K holds %td, peak "
+      "%.2f "
       "GB\n",
       order, mesh.tets.size(), all->K.rows(), nodes_s, fresh_s, again_s, all->K.nonZeros(),
       bench::peak_memory_bytes() / 1e9);

@@ -66,7 +66,8 @@ int main(int argc, char** argv) {
   }
   core::keep_freed_memory();  // as the program does
   try {
-    std::cout << run(std::atof(argv[1]), std::atoi(argv[2]), std::atoi(argv[3]), std::atoi(argv[4]) != 0).dump() << '\n';
+    std::cout << run(std::atof(argv[1]), std::atoi(argv[2]), std::atoi(argv[3]), std::atoi(argv[4]) != 0).dump()
+              << '\n';
   } catch (const std::exception& error) {
     std::cerr << "bench_ranks: " << error.what() << '\n';
     return 1;

@@ -3,6 +3,8 @@
 //
 //     bench_simulation            prints a table; the bars stand in docs/benchmarks.md
 
+#include "milling/simulation/simulation.hpp"
+
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -12,7 +14,6 @@
 #include "core/parallel.hpp"
 #include "milling/simulation/exact_path.hpp"
 #include "milling/simulation/growth.hpp"
-#include "milling/simulation/simulation.hpp"
 
 namespace {
 
@@ -69,8 +70,8 @@ void exact_steps_a_second() {
     (void)simulate_exact_path(structure_of(2), process, process.coefficients, {9000.0, 0.5e-3, 1e-4},
                               shoulder(process.cutter, 2e-3, MillingDirection::down), options, {720, 10});
   });
-  std::printf("%-58s %6d steps a turn  %8.2e steps/s\n", "exact paths, 2 modes, 2 straight teeth, 10 earlier passes", 720,
-              301.0 * 720.0 / s);
+  std::printf("%-58s %6d steps a turn  %8.2e steps/s\n", "exact paths, 2 modes, 2 straight teeth, 10 earlier passes",
+              720, 301.0 * 720.0 / s);
 }
 
 void growth() {
@@ -93,7 +94,8 @@ void map() {
     thinwall::core::parallel_for(range.size(), [&](std::size_t i) {
       const double rpm = 4000.0 + 16000.0 * static_cast<double>(i % speeds) / (speeds - 1);
       const double depth = 1e-4 * static_cast<double>(1 + i / speeds);
-      range[i] = simulate(structure, process, process.coefficients, {rpm, depth, 1e-4}, options).displacement_m.range().x();
+      range[i] =
+          simulate(structure, process, process.coefficients, {rpm, depth, 1e-4}, options).displacement_m.range().x();
     });
   });
   std::printf("%-58s %31.2f s\n", "map of 60 x 40 points, 200 turns each, 2 modes, all threads", s);
