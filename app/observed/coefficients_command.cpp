@@ -143,7 +143,7 @@ std::string line_of(const char* name, const learning::FittedCoefficient& c, doub
 
 /// A case takes no edge coefficient below 0, which friction on the edge cannot give.
 std::string edge_line_of(const char* name, const learning::FittedCoefficient& c) {
-  const std::string line = line_of(name, c, 1e-3, "N/mm");
+  std::string line = line_of(name, c, 1e-3, "N/mm");
   if (c.value >= 0.0) return line;
   return fmt::format("# {}   # a case takes none below 0, {}; left out it is 0\n", line.substr(0, line.size() - 1),
                      -c.value <= c.half_interval ? "and 0 lies within the interval"

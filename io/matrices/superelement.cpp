@@ -55,7 +55,7 @@ std::vector<int> labels(const Source& source, const std::string& name) {
   if (variable == nullptr) return {};
   std::vector<int> result;
   for (const double value : source.values(*variable)) {
-    if (value != std::floor(value) || std::abs(value) > static_cast<double>(largest_label / 2))
+    if (value != std::floor(value) || std::abs(value) > 0.5 * static_cast<double>(largest_label))
       source.fail("the variable " + name + " contains " + std::to_string(value) + ", which is no number of a node");
     result.push_back(static_cast<int>(value));
   }
