@@ -1,5 +1,7 @@
 #include "fem/modes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <numbers>
@@ -7,9 +9,11 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/messages.hpp"
 #include "fem/free_motions.hpp"
 #include "linalg/inverse_iteration.hpp"
 #include "linalg/rayleigh_quotients.hpp"
+#include "linalg/substructures/substructured_eigenpairs.hpp"
 
 namespace thinwall::fem {
 
@@ -20,7 +24,25 @@ double hertz(double lambda) {
   return std::sqrt(std::max(lambda, 0.0)) / (2.0 * std::numbers::pi);
 }
 
+/// The pairs from substructures, whose number and estimated error are told.
+linalg::Eigenpairs from_substructures(const Model& model, const Factored& factored, const ModeOptions& options) {
+  linalg::SubstructureOptions wanted;
+  wanted.count = options.count + model.rigid_motions;
+  const double omega = 2.0 * std::numbers::pi * options.up_to_hz.value_or(0.0);
+  wanted.lambda_max = omega * omega;
+  wanted.domains = options.substructures;
+  wanted.tolerance = 1e-5;
+  linalg::SubstructuredPairs found = linalg::substructured_eigenpairs(model.K, model.M, inverse_of(factored), wanted);
+  const double worst = found.error.size() > 0 ? found.error.maxCoeff() : 0.0;
+  core::inform(fmt::format(
+      "modes from {} substructures: {} modes of their own, {} of the {} rows between them, {} inverse iterations; "
+      "frequencies are right to {:.1e} by estimate",
+      found.domains, found.inner_modes, found.interface_modes, found.interface, found.steps, worst));
+  return std::move(found.pairs);
+}
+
 linalg::Eigenpairs solve(const Model& model, const Factored& factored, const ModeOptions& options) {
+  if (options.substructures > 0) return from_substructures(model, factored, options);
   if (options.up_to_hz) {
     const double omega = 2.0 * std::numbers::pi * *options.up_to_hz;
     return linalg::eigenpairs_up_to(model.K, model.M, inverse_of(factored), omega * omega);

@@ -11,7 +11,10 @@ namespace thinwall::fem {
 
 /// The modes wanted, by number or by frequency.
 struct ModeOptions {
-  int count = 10;                    ///< number of elastic modes; used if up_to_hz is not given
+  int count = 10;  ///< number of elastic modes; used if up_to_hz is not given
+  /// If not 0 the modes come from so many domains (2, 4, 8 …) by linalg::substructured_eigenpairs(), to 1e-5 of their
+  /// frequencies by its estimate, in place of block Lanczos.
+  int substructures = 0;
   std::optional<double> up_to_hz{};  ///< if given, all modes below this frequency instead
   double inverse_residual = 3e-10;   ///< ≤ 1e-6, for `count` modes: error of a shape; its square is that of λ
 };
@@ -31,7 +34,8 @@ struct [[nodiscard]] Modes {
 /// The natural modes of a model, the rigid-body modes first. Throws NumericalError if the iteration does not converge,
 /// if a free part does not show exactly its rigid-body modes (|λ| < 1e-6 of the first elastic eigenvalue or of the size
 /// of K's round-off, 10 ε tr K / tr M), or if the first elastic eigenvalue, of a held part too, is no larger than that
-/// round-off. Throws InputError if no elastic mode lies below up_to_hz. Cost: that of linalg::lowest_eigenpairs().
+/// round-off. Throws InputError if no elastic mode lies below up_to_hz. What substructures
+/// were taken is told. Cost: that of linalg::lowest_eigenpairs() or linalg::substructured_eigenpairs().
 Modes modes(const Model& model, const Factored& factored, const ModeOptions& options);
 
 /// The modes near given ones, which must lie near the lowest: inverse iteration (linalg::inverse_iteration) until the

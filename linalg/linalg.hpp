@@ -1,7 +1,7 @@
 #pragma once
 // The headers of linalg/ that other programs may include.
-// Internal: cholmod, factor_bytes, large_array, matrix_graph, minimum_fill, supernodal_factor, supernodal_solve,
-// symbolic_factor, tall, tree_cut.
+// Internal: cholmod, condensed_factor, domains, factor_bytes, large_array, matrix_graph, minimum_fill,
+// supernodal_factor, supernodal_solve, symbolic_factor, tall, tree_cut.
 
 #include "core/eigen_alignment.hpp"
 #include "linalg/block_lanczos.hpp"
@@ -19,3 +19,4 @@
 #include "linalg/sparse.hpp"
 #include "linalg/sparse_cholesky.hpp"
 #include "linalg/sparse_indefinite.hpp"
+#include "linalg/substructures/substructured_eigenpairs.hpp"

@@ -118,4 +118,18 @@ MatrixGraph matrix_graph(const SparseMatrix& A, const std::vector<int>& node_of_
   return graph;
 }
 
+MatrixGraph part_of(const MatrixGraph& graph, const std::vector<int>& kept) {
+  std::vector<int> number(graph.rows.size(), -1);
+  for (std::size_t i = 0; i < kept.size(); ++i) number[static_cast<std::size_t>(kept[i])] = static_cast<int>(i);
+  MatrixGraph part;
+  for (const int node : kept) {
+    part.rows.push_back(graph.rows[static_cast<std::size_t>(node)]);
+    std::vector<int>& around = part.neighbours.emplace_back();
+    for (const int other : graph.around(node)) {
+      if (number[static_cast<std::size_t>(other)] >= 0) around.push_back(number[static_cast<std::size_t>(other)]);
+    }
+  }
+  return part;
+}
+
 }  // namespace thinwall::linalg

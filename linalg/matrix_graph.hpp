@@ -35,4 +35,7 @@ struct MatrixGraph {
 /// of it the comparison of patterns of neighbouring rows.
 [[nodiscard]] MatrixGraph pattern_graph(const SparseMatrix& A);
 
+/// The part of a graph on the nodes `kept`, which are numbered anew in this order. Cost O(nodes + edges of these).
+[[nodiscard]] MatrixGraph part_of(const MatrixGraph& graph, const std::vector<int>& kept);
+
 }  // namespace thinwall::linalg

@@ -1,12 +1,10 @@
 #include "linalg/sparse_cholesky.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <string>
 #include <utility>
 
 #include "core/memory.hpp"
-#include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "linalg/external_factor.hpp"
 #include "linalg/factor_bytes.hpp"
@@ -22,16 +20,6 @@ namespace thinwall::linalg {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// Calls body(row) for every row, in pieces on all threads.
-template <class Body>
-void over_rows(Eigen::Index rows, const Body& body) {
-  constexpr Eigen::Index piece = 2048;
-  core::parallel_for(static_cast<std::size_t>((rows + piece - 1) / piece), [&](std::size_t i) {
-    const Eigen::Index first = static_cast<Eigen::Index>(i) * piece;
-    for (Eigen::Index row = first; row < std::min(first + piece, rows); ++row) body(row);
-  });
-}
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -86,24 +74,6 @@ struct SparseCholesky::Impl {
         "): a motion without stiffness, an element turned inside out, or a wall too thin for double "
         "precision");
   }
-
-  /// Writes columns first … first + width − 1 (as far as there are any) of A⁻¹ B to X. Right-hand sides are permuted on
-  /// the way in and out, and stored by rows, so that all values of a row lie together; missing columns are filled with
-  /// zeros.
-  template <int width>
-  void solve_strip(const Eigen::Ref<const Eigen::MatrixXd>& B, Eigen::Index first, Eigen::MatrixXd& X) const {
-    const Eigen::Index columns = std::min<Eigen::Index>(width, B.cols() - first);
-    const int* old_row = L.permutation.data();
-    Eigen::Matrix<double, width, Eigen::Dynamic> Y(width, B.rows());
-    over_rows(B.rows(), [&](Eigen::Index row) {
-      for (Eigen::Index j = 0; j < columns; ++j) Y(j, row) = B(old_row[row], first + j);
-      for (Eigen::Index j = columns; j < width; ++j) Y(j, row) = 0.0;
-    });
-    supernodal_solve<width>(L, cut, values.data(), Y);
-    over_rows(B.rows(), [&](Eigen::Index row) {
-      for (Eigen::Index j = 0; j < columns; ++j) X(old_row[row], first + j) = Y(j, row);
-    });
-  }
 };
 
 SparseCholesky::SparseCholesky(const SparseMatrix& A, const std::vector<int>& node_of_row, const FactorOptions& options)
@@ -127,15 +97,7 @@ SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& B) const {
   if (impl_->external) return impl_->external->solve(B);
-  Eigen::MatrixXd X(B.rows(), B.cols());
-  // Strips as wide as possible, because each reads the whole factor; the last ones are narrowed to the columns that are
-  // left.
-  Eigen::Index column = 0;
-  for (; column + 12 < B.cols(); column += 16) impl_->solve_strip<16>(B, column, X);
-  for (; column + 8 < B.cols(); column += 12) impl_->solve_strip<12>(B, column, X);
-  for (; column + 4 < B.cols(); column += 8) impl_->solve_strip<8>(B, column, X);
-  for (; column < B.cols(); column += 4) impl_->solve_strip<4>(B, column, X);
-  return X;
+  return supernodal_solution(impl_->L, impl_->cut, impl_->values.data(), B);
 }
 const FactorStatistics& SparseCholesky::statistics() const {
   return impl_->statistics;

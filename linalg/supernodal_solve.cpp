@@ -213,4 +213,50 @@ template void supernodal_solve<8>(const SymbolicFactor&, const TreeCut&, const d
 template void supernodal_solve<12>(const SymbolicFactor&, const TreeCut&, const double*, Rows<12>&);
 template void supernodal_solve<16>(const SymbolicFactor&, const TreeCut&, const double*, Rows<16>&);
 
+namespace {
+
+/// Calls body(row) for every row, in pieces on all threads.
+template <class Body>
+void over_rows(Eigen::Index rows, const Body& body) {
+  constexpr Eigen::Index piece = 2048;
+  core::parallel_for(static_cast<std::size_t>((rows + piece - 1) / piece), [&](std::size_t i) {
+    const Eigen::Index first = static_cast<Eigen::Index>(i) * piece;
+    for (Eigen::Index row = first; row < std::min(first + piece, rows); ++row) body(row);
+  });
+}
+
+/// Writes columns first … first + width − 1 (as far as there are any) of A⁻¹ B to X. Right-hand sides are permuted on
+/// the way in and out, and stored by rows, so that all values of a row lie together; missing columns are filled with
+/// zeros.
+template <int width>
+void solve_strip(const SymbolicFactor& L, const TreeCut& cut, const double* values,
+                 const Eigen::Ref<const Eigen::MatrixXd>& B, Eigen::Index first, Eigen::MatrixXd& X) {
+  const Eigen::Index columns = std::min<Eigen::Index>(width, B.cols() - first);
+  const int* old_row = L.permutation.data();
+  Rows<width> Y(width, B.rows());
+  over_rows(B.rows(), [&](Eigen::Index row) {
+    for (Eigen::Index j = 0; j < columns; ++j) Y(j, row) = B(old_row[row], first + j);
+    for (Eigen::Index j = columns; j < width; ++j) Y(j, row) = 0.0;
+  });
+  supernodal_solve<width>(L, cut, values, Y);
+  over_rows(B.rows(), [&](Eigen::Index row) {
+    for (Eigen::Index j = 0; j < columns; ++j) X(old_row[row], first + j) = Y(j, row);
+  });
+}
+
+}  // namespace
+
+Eigen::MatrixXd supernodal_solution(const SymbolicFactor& L, const TreeCut& cut, const double* values,
+                                    const Eigen::Ref<const Eigen::MatrixXd>& B) {
+  Eigen::MatrixXd X(B.rows(), B.cols());
+  // Strips as wide as possible, because each reads the whole factor; the last ones are narrowed to the columns that are
+  // left.
+  Eigen::Index column = 0;
+  for (; column + 12 < B.cols(); column += 16) solve_strip<16>(L, cut, values, B, column, X);
+  for (; column + 8 < B.cols(); column += 12) solve_strip<12>(L, cut, values, B, column, X);
+  for (; column + 4 < B.cols(); column += 8) solve_strip<8>(L, cut, values, B, column, X);
+  for (; column < B.cols(); column += 4) solve_strip<4>(L, cut, values, B, column, X);
+  return X;
+}
+
 }  // namespace thinwall::linalg

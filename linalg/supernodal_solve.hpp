@@ -16,4 +16,8 @@ template <int width>
 void supernodal_solve(const SymbolicFactor& L, const TreeCut& cut, const double* values,
                       Eigen::Matrix<double, width, Eigen::Dynamic>& X);
 
+/// The solution A⁻¹ B for B: n × any, rows in the order of A, by supernodal_solve() on strips of up to sixteen columns.
+[[nodiscard]] Eigen::MatrixXd supernodal_solution(const SymbolicFactor& L, const TreeCut& cut, const double* values,
+                                                  const Eigen::Ref<const Eigen::MatrixXd>& B);
+
 }  // namespace thinwall::linalg

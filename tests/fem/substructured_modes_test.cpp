@@ -1,0 +1,65 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/messages.hpp"
+#include "fem/modes.hpp"
+#include "fem/supports.hpp"
+#include "linalg/substructures/substructured_eigenpairs.hpp"
+#include "tests/mesh/kuhn_box.hpp"
+
+namespace thinwall::fem::substructured_modes_test {
+namespace {
+
+/// A steel plate, clamped at one edge or free.
+Model plate(bool clamped, const Eigen::Vector3d& size = {0.3, 0.2, 0.006}) {
+  std::vector<Support> supports;
+  if (clamped) supports.push_back({"edge", mesh::PlaneRegion{{0, 0, 0}, {1, 0, 0}}, {0, 1, 2}});
+  return supported_model(mesh::kuhn_box(size, {20, 13, 1}), 2, {210e9, 0.3, 7850.0}, supports);
+}
+
+TEST(SubstructuredModes, TheFrequenciesOfAPlateAreTheDirectOnesWithinTheirEstimate) {
+  for (const bool clamped : {true, false}) {
+    const Model model = plate(clamped);
+    const Factored factored = factorise(model);
+    const Modes direct = modes(model, factored, {.count = 40, .up_to_hz = {}});
+    for (const int domains : {2, 4}) {
+      const auto found = linalg::substructured_eigenpairs(model.K, model.M, {{}, factored.sigma},
+                                                          {.count = 40 + model.rigid_motions, .domains = domains});
+      ASSERT_EQ(found.pairs.status, linalg::EigenStatus::converged);
+      EXPECT_LE(found.error.maxCoeff(), 1e-3);
+      for (Eigen::Index k = model.rigid_motions; k < found.pairs.lambda.size(); ++k) {
+        const double error = std::abs(std::sqrt(found.pairs.lambda(k) / direct.pairs.lambda(k)) - 1.0);
+        EXPECT_LE(error, found.error(k)) << k << (clamped ? " clamped " : " free ") << domains;
+      }
+    }
+  }
+}
+
+TEST(SubstructuredModes, ModesOfAPartAreFoundByThemAndTold) {
+  std::vector<std::string> told;
+  const auto before =
+      core::set_message_listener([&](core::MessageLevel, const std::string& text) { told.push_back(text); });
+  const Model model = plate(false);
+  const Factored factored = factorise(model);
+  const Modes direct = modes(model, factored, {.count = 20, .up_to_hz = {}});
+  const Modes found = modes(model, factored, {.count = 20, .substructures = 4});
+  const double bound = 1.001 * direct.frequency_hz(25);
+  const Modes below = modes(model, factored, {.substructures = 2, .up_to_hz = bound});
+  (void)core::set_message_listener(before);
+  EXPECT_EQ(found.rigid_motions, 6);
+  ASSERT_EQ(found.frequency_hz.size(), 26);
+  ASSERT_EQ(below.frequency_hz.size(), 26);
+  for (Eigen::Index k = 6; k < 26; ++k) {
+    EXPECT_NEAR(found.frequency_hz(k) / direct.frequency_hz(k), 1.0, 1e-5) << k;
+    EXPECT_NEAR(below.frequency_hz(k) / direct.frequency_hz(k), 1.0, 1e-5) << k;
+  }
+  ASSERT_EQ(told.size(), 2U);
+  EXPECT_NE(told[0].find("modes from 4 substructures: "), std::string::npos) << told[0];
+  EXPECT_THROW((void)modes(model, factored, {.count = 20, .substructures = 6}), core::InputError);
+}
+
+}  // namespace
+}  // namespace thinwall::fem::substructured_modes_test
