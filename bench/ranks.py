@@ -7,7 +7,7 @@ import tempfile
 import fem
 import processes
 
-WIDTHS_M = {"110k": 0.064, "250k": 0.146, "430k": 0.25, "500k": 0.292, "1M": 0.6, "2M": 1.18, "3M": 1.77}
+WIDTHS_M = {"110k": 0.064, "250k": 0.146, "430k": 0.25, "500k": 0.292, "1M": 0.6, "2M": 1.18, "3M": 1.8}
 ENGINES = {  # ranks, threads, factor on disk
     "one process, 2 threads": (0, 2, 0),
     "1 rank": (1, 1, 0),

@@ -368,7 +368,8 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   bound.part_sensors = bind_sensors(root.tables("part.sensors"));
   bound.selections = bind_selections(root.table("selections"));
   bound.points = bind_points(root.table("points"));
-  bound.modes = {bind_range(root.table("modes"), "count", 10), root.flag("modes.verify")};
+  bound.modes = {bind_range(root.table("modes"), "count", 10), root.flag("modes.verify"),
+                 root.has("modes.substructures") ? root.integer("modes.substructures") : 0};
   bound.reduction.fixed_interface = bind_range(root.table("reduction"), "modes", setup::usual_reduction_modes);
   bound.reduction.tolerance = root.table("reduction").optional("tolerance");
   bound.reduction.interface = root.names("reduction.interface");

@@ -120,7 +120,9 @@ fem::NamedPoint named_point(const PartSetup& source, const std::string& name) {
 }
 
 fem::ModeOptions mode_options(const PartSetup& source) {
-  return {source.modes.range.count.value_or(10), source.modes.range.up_to_hz};
+  return {.count = source.modes.range.count.value_or(10),
+          .substructures = source.modes.substructures,
+          .up_to_hz = source.modes.range.up_to_hz};
 }
 
 std::vector<std::string> unreachable_tolerances(const PartSetup& source) {

@@ -24,7 +24,8 @@ struct ModeRange {
 /// The modes of the whole part that are asked for.
 struct Modes {
   ModeRange range;
-  bool verify = false;  ///< by a Sturm count and a second eigen-solver
+  bool verify = false;    ///< by a Sturm count and a second eigen-solver
+  int substructures = 0;  ///< domains, a power of two; 0 for block Lanczos on the whole part
 };
 
 /// Fixed-interface modes of a reduced model where a case does not say how many; fewer of a part that has no more.

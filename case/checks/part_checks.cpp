@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -241,6 +242,18 @@ std::optional<Eigen::Index> dofs_of_file(const setup::Part& part) {
   return 3 * solid->nodes.positions.rows();
 }
 
+void check_substructures(const Case& source, Findings& findings) {
+  const int domains = source.modes.substructures;
+  if (domains < 2) return;  // a number out of bounds is reported where it is read
+  if (!std::has_single_bit(static_cast<unsigned>(domains)))
+    findings.report("modes.substructures", std::to_string(domains) + " is no power of two; take " +
+                                               std::to_string(std::bit_floor(static_cast<unsigned>(domains))) + " or " +
+                                               std::to_string(std::bit_ceil(static_cast<unsigned>(domains))));
+  if (source.modes.verify)
+    findings.report("modes.verify",
+                    "compares frequencies to 1e-8, and modes.substructures finds them to 1e-5; remove one of them");
+}
+
 void check_mode_counts(const Case& source, Findings& findings) {
   const auto dofs = dofs_of_file(*source.part);
   if (!dofs) return;
@@ -276,6 +289,7 @@ void check_part(const Case& source, Findings& findings) {
     check_shape(source, findings);
     check_description(source, findings);
     check_mode_counts(source, findings);
+    check_substructures(source, findings);
     check_bend(*source.part, findings);
     if (geometry_known(*source.part)) check_material_places(source, findings);
     if (geometry_known(*source.part) && setup::kind(*source.part) != setup::ShapeKind::matrices &&

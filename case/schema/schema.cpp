@@ -107,6 +107,7 @@ constexpr Key case_keys[] = {
 
     Key{"modes.count", Type::integer, kind::number, "", {1, 2000, false, false, false, ""}, "", "Number of modes."},
     Key{"modes.up_to", Type::quantity, kind::frequency, "", positive, "", "All modes up to this frequency."},
+    Key{"modes.substructures", Type::integer, kind::number, "", {2, 64, false, false, false, "a power of two"}, "", "In place of block Lanczos on the whole part: so many domains, 2, 4, 8 …, each reduced by Craig-Bampton, with the modes of the interface between them; frequencies are right to 1e-5 by estimate (docs/scaling.md)."},
     Key{"modes.verify", Type::boolean, kind::number, "false", any, "", "Check the modes by a Sturm count, which shows whether one was missed, and by a second eigen-solver."},
 
     Key{"reduction.method", Type::choice, kind::number, "\"craig_bampton\"", any, "craig_bampton", "The method."},

@@ -113,6 +113,16 @@ TEST(BadCase, OutOfRangeNamesTheBoundAndTheRemedy) {
                  "more than the tool's length of 20 mm");
 }
 
+TEST(BadCase, SubstructuresArePowersOfTwoAndNotVerified) {
+  const auto modes = [](const std::string& lines) { return "[modes]\n" + lines + "\n[points.P]"; };
+  const std::string good = with(plate_case(), "[points.P]", modes("substructures = 8"));
+  EXPECT_EQ(parse_case(good, ".").modes.substructures, 8);
+  EXPECT_EQ(parse_case(plate_case(), ".").modes.substructures, 0);
+  expect_problem("[points.P]", modes("substructures = 6"), "6 is no power of two; take 4 or 8");
+  expect_problem("[points.P]", modes("substructures = 1"), "at least 2");
+  expect_problem("[points.P]", modes("substructures = 4\nverify = true"), "compares frequencies to 1e-8");
+}
+
 TEST(BadCase, NanAndInfinityAreNeverTaken) {
   expect_problem("poisson_ratio = 0.3", "poisson_ratio = nan", "finite");
   expect_problem("length = \"392 mm\"", "length = inf", "finite");

@@ -134,6 +134,23 @@ class Ranks(unittest.TestCase):
         line = self.error_of(run(self.folder / "out", TMPDIR="/nowhere"), 4)
         self.assertIn("/nowhere", line)
 
+    def test_a_program_that_mpirun_has_started_is_told(self):
+        line = self.error_of(run(self.folder / "out", OMPI_COMM_WORLD_SIZE="3"), 2)
+        self.assertIn("one of 3", line)
+        self.assertIn("start it without", line)
+        line = self.error_of(run(self.folder / "out", SLURM_STEP_NUM_TASKS="2"), 2)
+        self.assertIn("one of 2", line)
+        process = run(self.folder / "out", ranks=1, SLURM_STEP_NUM_TASKS="2")
+        self.assertIn(process.returncode, (0, 6), process.stderr)
+        self.assertIn("started 2 of this program", process.stderr)
+        process = run(self.folder / "one", ranks=1, SLURM_STEP_NUM_TASKS="1")
+        self.assertNotIn("of this program", process.stderr)
+
+    def test_more_ranks_than_there_is_memory_for_are_refused(self):
+        command = [*words(self.folder / "out", SMALL, ranks=4096), "--memory", "1 GB"]
+        line = self.error_of(subprocess.run(command, capture_output=True, text=True, timeout=300, check=False), 5)
+        self.assertIn("4096 processes on this machine", line)
+
     def test_an_mpirun_of_another_kind_is_told(self):
         other = self.folder / "mpirun-of-another-kind"
         other.write_text("#!/bin/sh\n# It starts processes that do not know of each other.\nshift 2\nexec \"$@\"\n",
