@@ -254,6 +254,7 @@ RankForecast forecast_of(std::istream& words) {
   words >> told.machine_bytes >> told.free_bytes >> told.least_bytes >> told.most_bytes >> told.seconds >>
       told.statistics.nonzeros >> told.statistics.flops >> told.statistics.seconds_analysis;
   told.statistics.bytes = 8.0 * told.statistics.nonzeros;
+  told.statistics.bytes_held = told.statistics.bytes;
   return told;
 }
 

@@ -151,7 +151,7 @@ Factored factorise(const Model& model, double memory_limit_bytes) {
     const double sigma = -1e-8 * model.spectrum_rad2_s2;
     if (model.rigid_motions == 0 && !softly_held(model, -1e-3 * sigma))
       return {linalg::SparseCholesky(model.K, model.node_of_row, options), 0.0};
-    return {linalg::SparseCholesky(linalg::combine(1.0, model.K, -sigma, model.M), model.node_of_row, options), sigma};
+    return {linalg::SparseCholesky(model.K, -sigma, model.M, model.node_of_row, options), sigma};
   } catch (const linalg::MemoryLimitError& error) {
     too_large(model, error);
   }

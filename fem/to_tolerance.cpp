@@ -153,8 +153,8 @@ Refined finished(Refinement&& r) {
   if (estimate.met) estimate.held_back_by.clear();
   Solution& s = best.solution;
   if (!s.factored) {
-    // The factor was given up for a solution that failed. It fits as it did before once the other one has none.
-    if (r.better) (&best == &*r.better ? *r.now : *r.better).solution.factored.reset();
+    // The factor was given up for another solution. It fits as it did before once that one is gone.
+    if (r.better) (&best == &*r.better ? r.now : r.better).reset();
     if (s.model.K.size() == 0) s.model = model_on(r.part, s.model.mesh, s.model.nodes.order);
     s.factored = factorise(s.model, r.options.memory_limit_bytes);
   }
@@ -207,7 +207,7 @@ void begin_level(Refinement& r, int level, mesh::TetMesh mesh) {
 /// way, too. Throws NumericalError if it does not fit without them.
 void make_room(Refinement& r, const mesh::TetMesh& mesh, int order) {
   Solution& last = r.now->solution;
-  const double factor = last.factored ? last.factored->factor.statistics().bytes : 0.0;
+  const double factor = last.factored ? last.factored->factor.statistics().bytes_held : 0.0;
   const double matrices = bytes_of(last.model.K) + bytes_of(last.model.M);
   const double needed = solution_bytes(mesh, order), left = core::memory_left_bytes();
   if (left > 0.0 && needed > left && needed <= left + factor + matrices) {

@@ -31,6 +31,9 @@ using Factoriser = std::function<std::unique_ptr<ExternalFactor>(const SparseMat
 /// as at the start. Not to be called while another thread factorises.
 Factoriser set_factoriser(Factoriser factoriser);
 
+/// True if an engine is set.
+[[nodiscard]] bool has_factoriser();
+
 /// The factor that the engine set last makes of A; null without an engine, or if it leaves A to this process.
 [[nodiscard]] std::unique_ptr<ExternalFactor> external_factor(const SparseMatrix& A, const FactorOptions& options);
 

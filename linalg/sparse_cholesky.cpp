@@ -36,6 +36,23 @@ void require_memory(double needed, double limit, Eigen::Index rows) {
                          needed, limit);
 }
 
+/// True if every entry of B lies at an entry of A; both have ascending rows in their columns.
+bool lies_within(const SparseMatrix& B, const SparseMatrix& A) {
+  for (Eigen::Index j = 0; j < A.cols(); ++j) {
+    SparseMatrix::InnerIterator of_a(A, j);
+    for (SparseMatrix::InnerIterator of_b(B, j); of_b; ++of_b) {
+      while (of_a && of_a.row() < of_b.row()) ++of_a;
+      if (!of_a || of_a.row() != of_b.row()) return false;
+    }
+  }
+  return true;
+}
+
+void require_square(const SparseMatrix& A, const std::vector<int>& node_of_row) {
+  if (A.rows() == 0 || A.rows() != A.cols() || static_cast<std::size_t>(A.rows()) != node_of_row.size())
+    throw core::NumericalError("a factorisation needs a square matrix and a node for each of its rows");
+}
+
 }  // namespace
 
 struct SparseCholesky::Impl {
@@ -58,13 +75,16 @@ struct SparseCholesky::Impl {
     statistics.flops = cost.flops;
     statistics.nonzeros = cost.nonzeros;
     statistics.bytes = factor_bytes(L, cut);
+    statistics.bytes_held = statistics.bytes - update_bytes(L, cut);
     statistics.seconds_analysis = seconds_since(start);
   }
 
-  void compute(const SparseMatrix& A, const std::vector<int>& node_of_row) {
+  void compute(const MatrixSum& sum, const std::vector<int>& node_of_row, const FactorOptions& options) {
+    analyse(sum.A);
+    require_memory(statistics.bytes, options.memory_limit_bytes, rows);
     const auto start = Clock::now();
     values = LargeArray<double>(L.values());
-    const auto failed = supernodal_factor(A, L, cut, values.data());
+    const auto failed = supernodal_factor(sum, L, cut, values.data());
     statistics.seconds_numeric = seconds_since(start);
     if (!failed) return;
     const auto row = static_cast<std::size_t>(L.permutation[static_cast<std::size_t>(*failed)]);
@@ -78,17 +98,28 @@ struct SparseCholesky::Impl {
 
 SparseCholesky::SparseCholesky(const SparseMatrix& A, const std::vector<int>& node_of_row, const FactorOptions& options)
     : impl_(std::make_unique<Impl>()) {
-  if (A.rows() == 0 || A.rows() != A.cols() || static_cast<std::size_t>(A.rows()) != node_of_row.size())
-    throw core::NumericalError("a factorisation needs a square matrix and a node for each of its rows");
+  require_square(A, node_of_row);
   impl_->rows = A.rows();
   impl_->external = external_factor(A, options);
   if (impl_->external) {
     impl_->statistics = impl_->external->statistics();
     return;
   }
-  impl_->analyse(A);
-  require_memory(impl_->statistics.bytes, options.memory_limit_bytes, A.rows());
-  impl_->compute(A, node_of_row);
+  impl_->compute({.A = A}, node_of_row, options);
+}
+
+SparseCholesky::SparseCholesky(const SparseMatrix& A, double b, const SparseMatrix& B,
+                               const std::vector<int>& node_of_row, const FactorOptions& options) {
+  if (B.rows() != A.rows() || B.cols() != A.cols())
+    throw core::NumericalError("the two matrices whose sum is to be factorised differ in size");
+  if (has_factoriser() || !lies_within(B, A)) {
+    *this = SparseCholesky(combine(1.0, A, b, B), node_of_row, options);
+    return;
+  }
+  require_square(A, node_of_row);
+  impl_ = std::make_unique<Impl>();
+  impl_->rows = A.rows();
+  impl_->compute({.A = A, .b = b, .B = &B}, node_of_row, options);
 }
 
 SparseCholesky::~SparseCholesky() = default;

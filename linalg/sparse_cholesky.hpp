@@ -18,9 +18,10 @@ struct FactorOptions {
 
 /// Size of a factor and cost of its factorisation.
 struct FactorStatistics {
-  double flops = 0.0;     ///< flops of the numeric factorisation
-  double nonzeros = 0.0;  ///< entries of the factor L, including the zeros that merged supernodes store
-  double bytes = 0.0;     ///< factor with the zeros that supernodes store, its indices and its workspace
+  double flops = 0.0;       ///< flops of the numeric factorisation
+  double nonzeros = 0.0;    ///< entries of the factor L, including the zeros that merged supernodes store
+  double bytes = 0.0;       ///< factor with the zeros that supernodes store, its indices and its workspace
+  double bytes_held = 0.0;  ///< the same without the workspace, which is given back after the factorisation
   double seconds_ordering = 0.0;
   double seconds_analysis = 0.0;
   double seconds_numeric = 0.0;
@@ -45,6 +46,10 @@ class SparseCholesky {
   /// numbering, used in messages only. Throws NumericalError if A is not positive definite, naming the row and its
   /// node, and MemoryLimitError. Cost: statistics().flops.
   SparseCholesky(const SparseMatrix& A, const std::vector<int>& node_of_row, const FactorOptions& options = {});
+  /// Factorises A + b B, such as K − σM, which is not formed where every entry of B lies at one of A. Arguments, errors
+  /// and cost as above.
+  SparseCholesky(const SparseMatrix& A, double b, const SparseMatrix& B, const std::vector<int>& node_of_row,
+                 const FactorOptions& options = {});
   ~SparseCholesky();
   SparseCholesky(SparseCholesky&&) noexcept;
   SparseCholesky& operator=(SparseCholesky&&) noexcept;

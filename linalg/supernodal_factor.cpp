@@ -230,7 +230,7 @@ struct Workspace {
 /// The factorisation in progress. update[s] of a supernode points into a stack and is valid until its parent is
 /// eliminated.
 struct Multifrontal {
-  const SparseMatrix& A;
+  const MatrixSum& sum;
   const SymbolicFactor& L;
   double* values;
   Tree tree;
@@ -259,10 +259,14 @@ struct Multifrontal {
     Threads::each(front(L, s).columns, [&](Place j) {
       double* column = panel(s).at(0, j);
       std::fill(column + j, column + L.height(s), 0.0);
-      for (SparseMatrix::InnerIterator it(A, L.permutation[static_cast<std::size_t>(first + j)]); it; ++it) {
-        const int row = position[static_cast<std::size_t>(it.row())];
-        if (row >= first + j) column[work.place[row]] += it.value();
-      }
+      const auto add = [&](const SparseMatrix& term, double factor) {
+        for (SparseMatrix::InnerIterator it(term, L.permutation[static_cast<std::size_t>(first + j)]); it; ++it) {
+          const int row = position[static_cast<std::size_t>(it.row())];
+          if (row >= first + j) column[work.place[row]] += factor * it.value();
+        }
+      };
+      add(sum.A, 1.0);
+      if (sum.B != nullptr) add(*sum.B, sum.b);
     });
   }
 
@@ -377,12 +381,13 @@ double update_bytes(const SymbolicFactor& L, const TreeCut& cut) {
   return 8.0 * static_cast<double>(values);
 }
 
-std::optional<int> supernodal_factor(const SparseMatrix& A, const SymbolicFactor& L, const TreeCut& cut,
+std::optional<int> supernodal_factor(const MatrixSum& sum, const SymbolicFactor& L, const TreeCut& cut,
                                      double* values) {
   const LibraryThreads one(1);
-  Multifrontal method{A, L, values, tree(L, cut), {}, {}};
-  method.position.resize(static_cast<std::size_t>(A.rows()));
-  for (int i = 0; i < A.rows(); ++i)
+  const Eigen::Index rows = sum.A.rows();
+  Multifrontal method{sum, L, values, tree(L, cut), {}, {}};
+  method.position.resize(static_cast<std::size_t>(rows));
+  for (int i = 0; i < rows; ++i)
     method.position[static_cast<std::size_t>(L.permutation[static_cast<std::size_t>(i)])] = i;
   method.update.resize(static_cast<std::size_t>(L.count()));
   std::vector<Place> failed(cut.groups.size());
@@ -390,7 +395,7 @@ std::optional<int> supernodal_factor(const SparseMatrix& A, const SymbolicFactor
   {
     // Groups are independent of each other. Each leaves the update matrices of its subtrees' roots, which the top of
     // the tree consumes afterwards; they are copied so that the workspace can serve the next group.
-    Pool pool(group_heights(L, method.tree, cut), A.rows());
+    Pool pool(group_heights(L, method.tree, cut), rows);
     core::parallel_for(cut.groups.size(), [&](std::size_t g) {
       std::unique_ptr<Workspace> work = pool.take();
       failed[g] = method.walk<Alone>(cut.groups[g], *work);
@@ -401,7 +406,7 @@ std::optional<int> supernodal_factor(const SparseMatrix& A, const SymbolicFactor
   // The smallest failing column is reported, so that the message does not depend on the order of the threads.
   std::erase(failed, -1);
   if (!failed.empty()) return static_cast<int>(*std::min_element(failed.begin(), failed.end()));
-  Workspace work(stack_use(L, method.tree, cut.top).most, A.rows());
+  Workspace work(stack_use(L, method.tree, cut.top).most, rows);
   const Place failed_on_top = method.walk<Shared>(cut.top, work);
   if (failed_on_top >= 0) return static_cast<int>(failed_on_top);
   return std::nullopt;

@@ -10,6 +10,13 @@
 
 namespace thinwall::linalg {
 
+/// The symmetric matrix A + b B, which is not formed. B is null for A alone; its entries lie at entries of A.
+struct MatrixSum {
+  const SparseMatrix& A;
+  double b = 0.0;
+  const SparseMatrix* B = nullptr;
+};
+
 /// The largest number of bytes of update matrices that supernodal_factor() holds at one time, besides the factor
 /// itself, on thread_count() threads.
 [[nodiscard]] double update_bytes(const SymbolicFactor& L, const TreeCut& cut);
@@ -25,11 +32,11 @@ namespace thinwall::linalg {
 /// thread and leaves the others to BLAS, which gains nothing on the hundred columns that a supernode of a thin wall
 /// has.
 ///
-/// A: n × n, both triangles. values: receives the panels, L.values() numbers, in the layout of SymbolicFactor; what
-/// lies above a diagonal is undefined. Returns a column (new position) whose pivot is not positive, if there is one;
-/// the factor is then unusable. The result is the same bit by bit for any number of threads. Throws NumericalError for
-/// lack of memory. Cost: factor_cost() flops; memory: update_bytes().
-[[nodiscard]] std::optional<int> supernodal_factor(const SparseMatrix& A, const SymbolicFactor& L, const TreeCut& cut,
+/// sum: n × n, both triangles; the A of the equation. values: receives the panels, L.values() numbers, in the layout of
+/// SymbolicFactor; what lies above a diagonal is undefined. Returns a column (new position) whose pivot is not
+/// positive, if there is one; the factor is then unusable. The result is the same bit by bit for any number of threads.
+/// Throws NumericalError for lack of memory. Cost: factor_cost() flops; memory: update_bytes().
+[[nodiscard]] std::optional<int> supernodal_factor(const MatrixSum& sum, const SymbolicFactor& L, const TreeCut& cut,
                                                    double* values);
 
 }  // namespace thinwall::linalg

@@ -90,7 +90,7 @@ double bytes_of(const linalg::SparseMatrix& A) {
 double solution_bytes(const mesh::TetMesh& mesh, int order) {
   const linalg::MatrixGraph graph = element_graph(mesh, order);
   const double of_K = bytes_of_entry * entry_count(graph), of_M = of_K / 3.0;  // the axes have no mass in common
-  return 2.0 * of_K + of_M + linalg::factor_bytes(graph);
+  return of_K + of_M + linalg::factor_bytes(graph);
 }
 
 }  // namespace thinwall::fem

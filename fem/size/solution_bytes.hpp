@@ -17,8 +17,8 @@ namespace thinwall::fem {
 /// The bytes that the values and indices of a matrix take.
 [[nodiscard]] double bytes_of(const linalg::SparseMatrix& A);
 
-/// The memory that a solution at order p takes at its worst, when K − σM is factorised: K, K − σM and M, which has a
-/// third of their entries because it does not couple the axes, and linalg::factor_bytes() of the element_graph().
+/// The memory that a solution at order p takes at its worst, when K − σM is factorised: K, M, which has a third of
+/// its entries because it does not couple the axes, and linalg::factor_bytes() of the element_graph().
 /// Supports, which take rows away, are not counted. Cost and errors as there.
 [[nodiscard]] double solution_bytes(const mesh::TetMesh& mesh, int order);
 

@@ -69,7 +69,7 @@ linalg::Eigenpairs lowest(const linalg::SparseMatrix& K, const linalg::SparseMat
     all.Phi.conservativeResize(Eigen::NoChange, kept);
     return all;
   }
-  const linalg::SparseCholesky factor(linalg::combine(1.0, K, alpha, M), node_of_row);
+  const linalg::SparseCholesky factor(K, alpha, M, node_of_row);
   const linalg::ShiftedInverse inverse{
       [&factor](const Eigen::Ref<const MatrixXd>& B) -> MatrixXd { return factor.solve(B); }, -alpha};
   return linalg::lowest_eigenpairs(K, M, inverse, count);

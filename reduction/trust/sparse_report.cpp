@@ -54,7 +54,7 @@ std::optional<int> below(const linalg::SparseMatrix& S, double shift, const std:
 std::pair<double, Index> least_pair(const linalg::SparseMatrix& S, double bound, const std::vector<int>& nodes) {
   double shift = 10.0 * bound;
   while (shift < 1e20 && below(S, shift, nodes).value_or(1) > 0) shift *= 10.0;
-  const linalg::SparseCholesky factor(linalg::combine(1.0, S, 1.0519 * shift, identity(S.rows())), nodes);
+  const linalg::SparseCholesky factor(S, 1.0519 * shift, identity(S.rows()), nodes);
   VectorXd x = VectorXd::LinSpaced(S.rows(), 1.0, 2.0);
   for (int pass = 0; pass < 60; ++pass) x = factor.solve(x).col(0).normalized();
   Index row = 0;
@@ -112,7 +112,7 @@ Frequencies lowest_frequencies(const SparseModel& model) {
   if (!(size > 0.0 && std::isfinite(size)) || count < 1) return {{}, "K or M is zero", {}};
   linalg::Eigenpairs pairs;
   try {
-    const linalg::SparseCholesky factor(linalg::combine(1.0, K, 1e-8 * size, M), node_of_row(model));
+    const linalg::SparseCholesky factor(K, 1e-8 * size, M, node_of_row(model));
     pairs = linalg::lowest_eigenpairs(
         K, M, {[&](const Eigen::Ref<const MatrixXd>& B) { return factor.solve(B); }, -1e-8 * size}, count);
   } catch (const core::NumericalError&) {

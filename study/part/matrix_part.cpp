@@ -47,8 +47,7 @@ bool has_definite_mass(const fem::Model& model) {
   linalg::SparseMatrix unit(model.M.rows(), model.M.rows());
   unit.setIdentity();
   try {
-    const linalg::SparseCholesky factor(linalg::combine(1.0, scaled, 1e-9, unit), model.node_of_row,
-                                        {core::available_memory_bytes()});
+    const linalg::SparseCholesky factor(scaled, 1e-9, unit, model.node_of_row, {core::available_memory_bytes()});
     return true;
   } catch (const linalg::MemoryLimitError&) {
     throw;

@@ -185,8 +185,7 @@ TEST(ShiftOnAnEigenvalue, OfTheModelIsAnErrorAtTheFactorisation) {
   const Modes found = modes(model, factorise(model), modes_wanted(4));
   for (const Eigen::Index k : {1, 2, 3}) {
     const double sigma = found.pairs.lambda(k);
-    EXPECT_THROW(linalg::SparseCholesky(linalg::combine(1.0, model.K, -sigma, model.M), model.node_of_row),
-                 core::NumericalError)
+    EXPECT_THROW(linalg::SparseCholesky(model.K, -sigma, model.M, model.node_of_row), core::NumericalError)
         << "λ" << k + 1;
   }
 }

@@ -19,7 +19,7 @@ struct Membrane {
   ShiftedInverse inverse;
 
   explicit Membrane(GridProblem problem, double sigma = 0.0)
-      : grid(std::move(problem)), factor(combine(1.0, grid.K, -sigma, grid.M), grid.node_of_row) {
+      : grid(std::move(problem)), factor(grid.K, -sigma, grid.M, grid.node_of_row) {
     inverse = {[this](const Eigen::Ref<const Eigen::MatrixXd>& B) { return factor.solve(B); }, sigma};
   }
 };

@@ -58,6 +58,27 @@ TEST(SparseCholesky, SolvesAsADenseFactorisationDoes) {
   EXPECT_GT(factor.statistics().flops, factor.statistics().nonzeros);
 }
 
+TEST(SparseCholesky, OfASumSolvesAsThatOfTheMatrixThatIsFormed) {
+  const Random problem = random_symmetric(60, 40.0, 1);
+  SparseMatrix within(180, 180);
+  within.setIdentity();
+  const SparseMatrix elsewhere = random_symmetric(60, 5.0, 7).A;
+  const Eigen::MatrixXd B = Eigen::MatrixXd::Random(180, 5);
+  for (const SparseMatrix& term : {within, elsewhere}) {
+    const Eigen::MatrixXd X = SparseCholesky(problem.A, 1.5, term, problem.node_of_row).solve(B);
+    const Eigen::MatrixXd sum = Eigen::MatrixXd(problem.A) + 1.5 * Eigen::MatrixXd(term);
+    EXPECT_LT((sum * X - B).norm(), 1e-12 * B.norm());
+  }
+  EXPECT_THROW(SparseCholesky(problem.A, 1.0, SparseMatrix(3, 3), problem.node_of_row), core::NumericalError);
+}
+
+TEST(SparseCholesky, HoldsNoUpdateMatricesAfterTheFactorisation) {
+  const Random problem = random_symmetric(200, 40.0, 3);
+  const FactorStatistics size = SparseCholesky(problem.A, problem.node_of_row).statistics();
+  EXPECT_GE(size.bytes_held, 8.0 * size.nonzeros);
+  EXPECT_LT(size.bytes_held, size.bytes);
+}
+
 TEST(SparseCholesky, AcceptsOneRowAndRowsWithoutNeighbours) {
   SparseMatrix diagonal(4, 4);
   for (int i = 0; i < 4; ++i) diagonal.insert(i, i) = i + 1.0;

@@ -69,7 +69,7 @@ Values factored(const Grid& grid) {
   result.L = symbolic_factor(graph, elimination_order(graph));
   result.cut = tree_cut(result.L);
   result.values = LargeArray<double>(result.L.values());
-  result.failed = supernodal_factor(grid.A, result.L, result.cut, result.values.data());
+  result.failed = supernodal_factor({.A = grid.A}, result.L, result.cut, result.values.data());
   return result;
 }
 
