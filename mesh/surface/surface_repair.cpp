@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "core/error.hpp"
@@ -14,6 +15,8 @@
 #include "mesh/surface/facet_repair.hpp"
 #include "mesh/surface/hole_filling.hpp"
 #include "mesh/surface/orientation.hpp"
+#include "mesh/surface/separate_bodies.hpp"
+#include "mesh/surface/solid_union.hpp"
 #include "mesh/surface/thin_walls.hpp"
 
 namespace thinwall::mesh {
@@ -152,9 +155,29 @@ SurfaceFinding crowded_edges(const TriangleSoup& soup) {
   return finding;
 }
 
+/// Of the diagonal: edges of bodies that should lie on each other leave slivers of this width in their union, for the
+/// coordinates of a file have seven digits or so.
+constexpr double sliver_of_union = 1e-7;
+
+/// Replaces several bodies by their union if all of them touch or overlap. A soup that is no set of closed bodies, or
+/// whose bodies lie apart, stays as it is.
+void unite_bodies(Repair& repair, const ProcessLimits& limits) {
+  const std::vector<TriangleSoup> bodies = separate_bodies(repair.soup);
+  if (bodies.size() < 2) return;
+  const std::optional<TriangleSoup> all = united(bodies, limits);
+  if (!all) return;
+  const SoupBounds block = bounds(*all);
+  repair.soup = merged_points(*all, sliver_of_union * (block.largest - block.least).norm()).soup;
+  (void)drop_collapsed(repair.soup);
+  repair.note({.what = "bodies that touch or overlap and are treated as one",
+               .count = static_cast<int>(bodies.size()),
+               .first_m = bodies.front().points.front()});
+}
+
 /// Repairs the facets, so that every edge has two triangles; throws InputError with the faults if that fails.
 void mend_facets(Repair& repair, const SurfaceRepairOptions& options) {
   repair.note(drop_collapsed(repair.soup));
+  unite_bodies(repair, options.limits);
   auto [doubled, opposite] = drop_duplicates(repair.soup);
   const SurfaceFinding walls = coincident_walls(repair.soup, opposite);
   repair.note(doubled);

@@ -34,13 +34,14 @@ struct SurfaceRepair {
   double thinnest_wall_m = 0.0;  ///< if options.thinnest_wall_m > 0; infinite if no two faces lie opposite
 };
 
-/// The repaired surface: points are merged, collapsed and repeated facets dropped, neighbours of facets without area
-/// split, small holes filled if asked for, and facets turned outwards. Anything that would need a guess is refused:
-/// throws InputError, in one line with counts and first places in mm of everything found at that stage, for open edges,
-/// edges of more than two triangles, walls without thickness (coincident opposite facets), points in which parts touch,
-/// a one-sided surface, several bodies, cavities, triangles that cross or cover each other, walls below the tolerance,
-/// a movement above the bound, coordinates too far away for double precision, a diagonal beyond 1000 km or below 1 nm,
-/// and options out of range. Throws NumericalError if a search does not end within the limits. Cost O(n log n).
+/// The repaired surface: points are merged, several closed bodies that touch or overlap united (united()), collapsed
+/// and repeated facets dropped, neighbours of facets without area split, small holes filled if asked for, and facets
+/// turned outwards. Anything that would need a guess is refused: throws InputError, in one line with counts and first
+/// places in mm of everything found at that stage, for open edges, edges of more than two triangles, walls without
+/// thickness (coincident opposite facets), points in which parts touch, a one-sided surface, several bodies, cavities,
+/// triangles that cross or cover each other, walls below the tolerance, a movement above the bound, coordinates too far
+/// away for double precision, a diagonal beyond 1000 km or below 1 nm, and options out of range. Throws NumericalError
+/// if a search does not end within the limits. Cost O(n log n).
 [[nodiscard]] SurfaceRepair repaired_surface(const TriangleSoup& soup, const SurfaceRepairOptions& options = {});
 
 /// The repairs in one line, or "nothing to mend".
