@@ -13,6 +13,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <exception>
 #include <fstream>
 #include <new>
@@ -100,10 +101,19 @@ struct Outcome {
   std::exception_ptr stopped;  // what core::check_interrupt() threw, if it did
 };
 
-/// Reads from a pipe until its writer closes it, the time limit passes, or the computation is to stop.
-Outcome read_until_closed(int in, double time_limit_s) {
+/// The processor time that a child has used, s.
+double processor_time_s(pid_t child) {
+  clockid_t clock{};
+  timespec used{};
+  if (clock_getcpuclockid(child, &clock) != 0 || clock_gettime(clock, &used) != 0) return 0.0;
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
+
+/// Reads from the pipe to which a child writes until it is closed, the child has used the time limit in processor time
+/// or has lasted longest_wait times as long, or the computation is to stop.
+Outcome read_until_closed(int in, pid_t child, double time_limit_s) {
   using Clock = std::chrono::steady_clock;
-  const auto deadline = Clock::now() + std::chrono::duration<double>(time_limit_s);
+  const auto deadline = Clock::now() + std::chrono::duration<double>(longest_wait * time_limit_s);
   Outcome outcome;
   std::vector<char> buffer(1U << 18U);
   for (;;) {
@@ -113,7 +123,7 @@ Outcome read_until_closed(int in, double time_limit_s) {
       outcome.stopped = std::current_exception();
       return outcome;
     }
-    if (Clock::now() > deadline) {
+    if (processor_time_s(child) > time_limit_s || Clock::now() > deadline) {
       outcome.timed_out = true;
       return outcome;
     }
@@ -200,7 +210,7 @@ std::vector<char> run_confined(const std::function<std::vector<char>()>& work, d
     child(work, ends[1], time_limit_s, memory_limit_bytes);
   }
   close(ends[1]);
-  Outcome outcome = read_until_closed(ends[0], time_limit_s);
+  Outcome outcome = read_until_closed(ends[0], pid, time_limit_s);
   close(ends[0]);
   if (outcome.timed_out || outcome.stopped) kill(pid, SIGKILL);
   int status = 0;

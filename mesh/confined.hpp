@@ -8,9 +8,13 @@
 
 namespace thinwall::mesh {
 
+/// The time that a mesher may last, over the processor time that it may use: on a busy machine it waits for others, and
+/// its outcome does not depend on them.
+inline constexpr double longest_wait = 3.0;
+
 /// Resources that a mesher's process may use.
 struct ProcessLimits {
-  double time_s = 120.0;      ///< the process is killed after this
+  double time_s = 120.0;      ///< the process is killed after this processor time, or after longest_wait times as long
   double memory_bytes = 4e9;  ///< address space that it may take beyond what it starts with
 };
 

@@ -153,10 +153,27 @@ TEST(ConfinedProcess, AHangEndsAtItsTimeLimit) {
       []() -> Bytes {
         for (;;) sleep(1);
       },
-      1.0);
+      0.4);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  EXPECT_NE(text.find("did not finish within 1"), std::string::npos) << text;
+  EXPECT_NE(text.find("did not finish within 0.4"), std::string::npos) << text;
   EXPECT_LT(seconds, 60.0);
+}
+
+TEST(ConfinedProcess, ItsLimitIsOneOfProcessorTime) {
+  const Bytes done = run_confined(
+      []() -> Bytes {
+        usleep(400'000);
+        return {'1'};
+      },
+      0.2, 2e8);
+  EXPECT_EQ(done, Bytes{'1'}) << "the process waited longer than its limit, but did not compute";
+  const std::string text = failure(
+      []() -> Bytes {
+        for (std::atomic<int> turns = 0;; ++turns) {
+        }
+      },
+      0.1);
+  EXPECT_NE(text.find("did not finish within 0.1"), std::string::npos) << text;
 }
 
 TEST(ConfinedProcess, AMemoryHogEndsAtItsLimit) {
