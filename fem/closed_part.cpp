@@ -30,6 +30,7 @@ constexpr double size_of_round_parts = 0.8;       // of the mean wall thickness
 constexpr double most_of_round_body = 4000.0;     // triangles
 constexpr double most_of_rod = 6000.0;            // likewise, of bodies that are as thin across as along their surface
 constexpr double largest_in_rod = 1.3;            // of the mean wall thickness
+constexpr double smaller_if_none = 0.6;           // element size where no other attempt makes a mesh
 constexpr double thinnest_plate = 0.75;           // mean over median thickness: 1 of a plate, 1/2 of a rod
 constexpr double share_of_curves = 0.4;           // of the tolerance, by which the volume of curved elements may err
 constexpr double most_off = 0.02;                 // by volume, of curved elements that are taken nevertheless
@@ -95,7 +96,8 @@ double size_of_round_body(const mesh::TriangleSurface& surface, double median) {
 }
 
 /// The options of the mesher in successive attempts for elements that are curved afterwards, whose chords may lie far
-/// off the surface.
+/// off the surface. The last but one has shorter chords; the last one has smaller elements, for walls so thin towards
+/// an edge that tetrahedra as long as the others' would be slivers there.
 std::vector<mesh::SurfaceMeshOptions> attempts_with_chords(const mesh::SurfaceMeshOptions& straight,
                                                            double size_of_round) {
   mesh::SurfaceMeshOptions first = straight;
@@ -111,6 +113,8 @@ std::vector<mesh::SurfaceMeshOptions> attempts_with_chords(const mesh::SurfaceMe
   result.push_back(first);
   result.back().size.deviation *= 0.5;
   result.back().size.turn_rad *= 0.7;
+  result.push_back(first);
+  result.back().size.scale *= smaller_if_none;
   return result;
 }
 
@@ -172,8 +176,9 @@ std::optional<CurvedMesh> best_curved_mesh(const mesh::TriangleSurface& surface,
   const double size_of_round = size_of_round_body(surface, analysed->median);
   const auto attempts = attempts_with_chords(mesh_options(surface, options, level), size_of_round);
   for (std::size_t i = 0; i < attempts.size(); ++i) {
-    const bool is_last = i + 1 == attempts.size();
-    if (is_last && best && !best->is_small && best->off() <= most_off) break;  // shorter chords would make more
+    const bool smaller = i + 1 == attempts.size(), shorter_chords = i + 2 == attempts.size();
+    if (best && smaller) break;
+    if (best && shorter_chords && !best->is_small && best->off() <= most_off) break;  // they would make more elements
     const auto& attempt = attempts[i];
     try {
       CurvedMesh mesh = curved_mesh(surface, patches, analysed, options, attempt, level);

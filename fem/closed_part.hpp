@@ -77,11 +77,12 @@ struct [[nodiscard]] ClosedPart {
 /// angle of 0.5 / 2^level rad along an edge. Elements of a part of one material follow curved patches of the surface by
 /// their shape (curved_onto()): their chords may lie a fifth of the wall off it. Until the volume is right to 0.4 ·
 /// tolerance, a body that is round rather than thin gets isotropic elements, and then chords are half as far off and
-/// turn 0.7 times as far. Where that fails, and with several materials, elements are straight, and the turning angle is
-/// as small as 0.2 · tolerance on the volume requires; of a round body, and where these would be tens of thousands, or
-/// cannot be made or exceed largest_dofs, the best curved mesh is taken, whose error the estimate tells. If a finer
-/// level cannot be meshed, straight elements of the first level made 0.7^level times as large are used instead. Each
-/// mesh is appended to `meshes`, which must outlive the part, as must `surface` and `options`.
+/// turn 0.7 times as far. Where no such mesh can be had, elements of 0.6 times the size are tried. Where that fails,
+/// and with several materials, elements are straight, and the turning angle is as small as 0.2 · tolerance on the
+/// volume requires; of a round body, and where these would be tens of thousands, or cannot be made or exceed
+/// largest_dofs, the best curved mesh is taken, whose error the estimate tells. If a finer level cannot be meshed,
+/// straight elements of the first level made 0.7^level times as large are used instead. Each mesh is appended to
+/// `meshes`, which must outlive the part, as must `surface` and `options`.
 [[nodiscard]] SolidPart solid_part(const mesh::TriangleSurface& surface, const Material& material,
                                    const ClosedPartOptions& options, std::vector<FirstMesh>& meshes);
 
