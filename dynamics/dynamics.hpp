@@ -1,6 +1,6 @@
 #pragma once
 // The headers of dynamics/ that other programs may include.
-// Internal: motion_words.
+// Internal: motion_words, rational_lines, rational_noise.
 
 #include "core/eigen_alignment.hpp"
 #include "dynamics/beam_element.hpp"

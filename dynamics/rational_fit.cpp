@@ -12,6 +12,7 @@
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "dynamics/rational_noise.hpp"
 
 namespace thinwall::dynamics {
 
@@ -20,122 +21,7 @@ namespace {
 using Eigen::Index;
 using std::complex;
 using std::numbers::pi;
-
-/// Lines and entries as the fit takes them. Frequencies are divided by the last one, so that columns are of one order.
-struct Lines {
-  Eigen::VectorXcd s;         ///< iω over the last ω
-  Eigen::VectorXcd weight;    ///< 1/√‖H‖, the largest ‖H‖ being 1; real
-  Eigen::MatrixXcd entries;   ///< lines × entries, over the largest ‖H‖
-  Eigen::MatrixXcd combined;  ///< lines × at most three
-  double scale = 1.0;         ///< largest ‖H‖, m/N
-  double omega = 1.0;         ///< last ω, rad/s
-};
-
-bool is_real(complex<double> pole) {
-  return pole.imag() == 0.0;
-}
-
-/// Real over imaginary parts: least squares with real unknowns.
-Eigen::MatrixXd stacked(const Eigen::MatrixXcd& A) {
-  Eigen::MatrixXd both(2 * A.rows(), A.cols());
-  both << A.real(), A.imag();
-  return both;
-}
-
-/// The basis at every line, with real coefficients: 1/(s − λ) of a real pole; of a pair 1/(s − λ) + 1/(s − λ̄) and
-/// i/(s − λ) − i/(s − λ̄), so that coefficients a, b stand for the residue a + ib. The last column is 1.
-Eigen::MatrixXcd basis(const Eigen::VectorXcd& s, const Eigen::VectorXcd& poles) {
-  const auto reals = std::count_if(poles.begin(), poles.end(), is_real);
-  Eigen::MatrixXcd B(s.size(), 2 * poles.size() - reals + 1);
-  Index column = 0;
-  for (const complex<double> pole : poles) {
-    const Eigen::ArrayXcd above = (s.array() - pole).inverse();
-    if (is_real(pole)) {
-      B.col(column++) = above;
-      continue;
-    }
-    const Eigen::ArrayXcd below = (s.array() - std::conj(pole)).inverse();
-    B.col(column++) = above + below;
-    B.col(column++) = complex<double>(0.0, 1.0) * (above - below);
-  }
-  B.col(column).setOnes();
-  return B;
-}
-
-/// Least squares with columns of unit length, for those of poles far apart differ by orders.
-Eigen::MatrixXd least_squares(Eigen::MatrixXd A, const Eigen::MatrixXd& b) {
-  const Eigen::VectorXd length = A.colwise().norm().transpose().cwiseMax(std::numeric_limits<double>::min());
-  A *= length.cwiseInverse().asDiagonal();
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(A);
-  return length.cwiseInverse().asDiagonal() * qr.solve(b);
-}
-
-/// The real combinations of the entries with the most weight: eigenvectors of the entries' Gram matrix.
-Eigen::MatrixXcd main_combinations(const Eigen::MatrixXcd& entries, const Eigen::VectorXcd& weight) {
-  const Eigen::MatrixXd weighed = stacked(weight.asDiagonal() * entries);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd(weighed.transpose() * weighed));
-  if (eigen.info() != Eigen::Success)
-    throw core::NumericalError(
-        "rational fit: the entries were not combined; check the lines for entries of other orders");
-  const auto& size = eigen.eigenvalues();
-  const double least = 1e-20 * size(size.size() - 1);
-  const Index count = std::min<Index>(3, (size.array() > least).count());
-  return entries * eigen.eigenvectors().rightCols(count);
-}
-
-Lines lines_of(const Eigen::VectorXd& hz, const std::vector<Eigen::MatrixXcd>& H) {
-  const auto fail = [](const std::string& what) { throw core::InputError("rational fit: " + what); };
-  const Index count = hz.size();
-  if (count < 6) fail(std::to_string(count) + " frequency lines, at least 6 are needed");
-  if (static_cast<std::size_t>(count) != H.size())
-    fail(std::to_string(count) + " frequencies for " + std::to_string(H.size()) + " matrices, must be as many");
-  Lines lines{complex<double>(0.0, 1.0 / hz(count - 1)) * hz.cast<complex<double>>(),
-              {},
-              {},
-              {},
-              1.0,
-              2.0 * pi * hz(count - 1)};
-  lines.entries.resize(count, H.front().size());
-  for (Index i = 0; i < count; ++i) {
-    const Eigen::MatrixXcd& at = H[static_cast<std::size_t>(i)];
-    if (at.rows() != H.front().rows() || at.cols() != H.front().cols())
-      fail("line " + std::to_string(i + 1) + " has another shape than the first");
-    lines.entries.row(i) = at.reshaped().transpose();
-  }
-  lines.scale = lines.entries.rowwise().norm().maxCoeff();
-  if (!(lines.scale > 0.0) || !lines.entries.allFinite() || !hz.allFinite())
-    fail("the lines are all zero or not all finite; check the file");
-  lines.entries /= lines.scale;
-  // A line of nothing must not get all the weight.
-  lines.weight = lines.entries.rowwise().norm().cwiseMax(1e-8).cwiseSqrt().cwiseInverse().cast<complex<double>>();
-  lines.combined = main_combinations(lines.entries, lines.weight);
-  return lines;
-}
-
-/// Two thousand of the lines, evenly, with the last, and of the others the thousand that a straight line between these
-/// misses most: even lines alone would miss a peak that is sharper than they are close.
-Lines telling(const Lines& lines) {
-  constexpr Index even = 2000, more = 1000;
-  const Index count = lines.s.size(), step = 1 + (count - 1) / even;
-  std::vector<Index> kept;
-  std::vector<std::pair<double, Index>> missed;
-  for (Index from = 0; from < count; from += step) {
-    kept.push_back(from);
-    const Index to = std::min(from + step, count - 1);
-    for (Index i = from + 1; i < to; ++i) {
-      const double share = (lines.s(i) - lines.s(from)).imag() / (lines.s(to) - lines.s(from)).imag();
-      const auto straight = (1.0 - share) * lines.entries.row(from) + share * lines.entries.row(to);
-      missed.emplace_back(lines.weight(i).real() * (lines.entries.row(i) - straight).norm(), i);
-    }
-  }
-  if (kept.back() != count - 1) kept.push_back(count - 1);
-  const auto most = missed.begin() + std::min<std::ptrdiff_t>(more, std::ssize(missed));
-  std::ranges::partial_sort(missed, most, std::greater{});
-  for (auto at = missed.begin(); at != most; ++at) kept.push_back(at->second);
-  std::ranges::sort(kept);
-  return {lines.s(kept), lines.weight(kept), lines.entries(kept, Eigen::all), lines.combined(kept, Eigen::all),
-          lines.scale,   lines.omega};
-}
+using namespace rational;
 
 /// The coefficients of the factor (c₀ + Σ c_n φ_n), c₀ last. Of each combination only what no numerator can reproduce
 /// takes part (the QR of its own unknowns is eliminated); the sum of the factor's real part over the lines is held at
@@ -197,59 +83,6 @@ bool settled(const Eigen::VectorXcd& before, const Eigen::VectorXcd& after) {
   return before.size() == after.size() && ((before - after).array().abs() <= 1e-8 * after.array().real().abs()).all();
 }
 
-/// A fit of scaled lines: coefficients, basis functions × entries, and what is left of the lines.
-struct Fit {
-  Eigen::VectorXcd poles;
-  Eigen::MatrixXd coefficients;
-  double weighed = INFINITY;  ///< ‖W (fit − H)‖ / ‖W H‖
-  double plain = INFINITY;    ///< ‖fit − H‖ / ‖H‖
-  Eigen::VectorXd rest;       ///< ‖W (fit − H)‖ of each line
-  double common = 1.0;  ///< correlation of the weighed rests of neighbouring lines: 0 of noise, 1 of what lines resolve
-};
-
-/// Re Σ rᵢᴴ rᵢ₊₁ / Σ ‖rᵢ‖² of the rows rᵢ.
-double correlation_of_neighbours(const Eigen::MatrixXcd& rows) {
-  const Index count = rows.rows();
-  const double squares = rows.topRows(count - 1).squaredNorm();
-  const double products = rows.topRows(count - 1).conjugate().cwiseProduct(rows.bottomRows(count - 1)).sum().real();
-  return squares > 0.0 ? products / squares : 0.0;
-}
-
-/// The coefficients for given poles.
-Fit with_poles(const Lines& lines, const Eigen::VectorXcd& poles) {
-  const Eigen::MatrixXcd B = basis(lines.s, poles);
-  const Eigen::MatrixXcd weighed = lines.weight.asDiagonal() * lines.entries;
-  const Eigen::MatrixXd x = least_squares(stacked(lines.weight.asDiagonal() * B), stacked(weighed));
-  const Eigen::MatrixXcd left = B * x - lines.entries;
-  const Eigen::MatrixXcd rest = lines.weight.asDiagonal() * left;
-  return {poles,
-          x,
-          rest.norm() / weighed.norm(),
-          left.norm() / lines.entries.norm(),
-          rest.rowwise().norm(),
-          correlation_of_neighbours(rest)};
-}
-
-/// The distance between the lines about a frequency, scaled as they are.
-double spacing_at(const Lines& lines, double s) {
-  const Index count = lines.s.size();
-  Index above = 1;
-  while (above + 1 < count && lines.s(above).imag() < s) ++above;
-  return lines.s(above).imag() - lines.s(above - 1).imag();
-}
-
-/// The poles without those that lie far beyond the lines, to which they are static, and those that are far sharper than
-/// the lines are close, of whose peak no line tells how high it is.
-Eigen::VectorXcd resolved(const Lines& lines, const Eigen::VectorXcd& poles) {
-  constexpr double far_beyond = 4.0, sharp = 0.05;
-  std::vector<Index> kept;
-  for (Index i = 0; i < poles.size(); ++i) {
-    const bool wide = std::abs(poles(i).real()) >= sharp * spacing_at(lines, poles(i).imag());
-    if (wide && std::abs(poles(i)) <= far_beyond) kept.push_back(i);
-  }
-  return poles(kept);
-}
-
 /// The poles of the next step.
 Eigen::VectorXcd relocated(const Lines& lines, const Eigen::VectorXcd& poles) {
   core::check_interrupt();
@@ -293,6 +126,12 @@ PartialFractions unscaled(const Fit& fit, const Lines& lines, Index rows, Index 
   return sum;
 }
 
+/// True if more than round-off and what no pole of the fit can carry is left of the lines.
+bool noisy(const Fit& fit) {
+  constexpr double no_noise = 1e-6;
+  return fit.weighed > no_noise;
+}
+
 /// The poles of a fit, and as many weakly damped pairs more where it leaves most of the lines: at the largest weighed
 /// rests, no two of them nearer than a quarter of their mean distance over the lines.
 Eigen::VectorXcd with_more(const Fit& fit, const Lines& lines, Index more) {
@@ -333,7 +172,12 @@ PartialFractions vector_fit(const Eigen::VectorXd& hz, const std::vector<Eigen::
     throw core::InputError("rational fit: " + std::to_string(hz.size()) + " lines for " + std::to_string(poles.size()) +
                            " poles; more than " + std::to_string(unknowns) + " lines and one pole at least are needed");
   }
-  return unscaled(improved(lines, poles / lines.omega), lines, H.front().rows(), H.front().cols());
+  Fit found = improved(lines, poles / lines.omega);
+  if (noisy(found)) {
+    const Lines evenly = weighed_by_neighbours(lines);
+    found = with_least_squares(evenly, with_poles(evenly, found.poles));
+  }
+  return unscaled(found, lines, H.front().rows(), H.front().cols());
 }
 
 PartialFractions rational_fit(const Eigen::VectorXd& hz, const std::vector<Eigen::MatrixXcd>& H) {
@@ -357,7 +201,12 @@ PartialFractions rational_fit(const Eigen::VectorXd& hz, const std::vector<Eigen
     tries = -1;
     if (best.weighed <= enough) break;
   }
-  return unscaled(improved(lines, best.poles), lines, H.front().rows(), H.front().cols());
+  best = improved(lines, best.poles);
+  if (noisy(best)) {
+    const Lines evenly = weighed_by_neighbours(lines);
+    best = with_poles_of_noisy_lines(evenly, with_poles(evenly, best.poles));
+  }
+  return unscaled(best, lines, H.front().rows(), H.front().cols());
 }
 
 }  // namespace thinwall::dynamics

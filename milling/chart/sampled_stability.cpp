@@ -250,21 +250,40 @@ void follow_to_lines(const FittedStructure& structure, const CutAtSpeed& cut, Lo
   if (cut.process.cutter.depends_on_depth()) point.error_estimate += std::abs(change - 1.0);
 }
 
-/// Adds to a row that is stable up to the depth limit what the lines leave open: twice the larger change of |μ| there.
-/// If the cut may be unstable there by the estimate, nothing is known of its limit.
-void compare_at_limit(const FittedStructure& structure, const MillingProcess& process, const StabilityOptions& options,
+/// By how much of the depth limit a row that is stable up to there may be unstable below it, by the first crossing
+/// beyond: 1 - w (1 - e)/limit for one at w with the estimate e; 0 or less if it lies clearly beyond, and if there is
+/// none up to half as deep again.
+double open_below_limit(const FittedStructure& structure, const CutAtSpeed& cut, const StabilityOptions& options) {
+  constexpr double looked_at = 1.5;
+  StabilityOptions beyond = options;
+  beyond.depth_limit_m *= looked_at;
+  beyond.follow = 1.0;
+  const LobeRow row = limiting_depth(structure.all.poles, cut.process, cut.spindle_speed_rpm, beyond);
+  if (row.at_limit || row.crossings.empty()) return 0.0;
+  LobePoint first = row.crossings.front();
+  follow_to_lines(structure, cut, first);
+  return 1.0 - first.depth_m * (1.0 - first.error_estimate) / options.depth_limit_m;
+}
+
+/// Adds to a row that is stable up to the depth limit what the lines leave open there: twice the larger change of |μ|.
+/// If by that the cut may be unstable, nothing is known of its limit. If it may be by the first crossing beyond, the
+/// row is the lines' as far as that reaches below the limit.
+void compare_at_limit(const FittedStructure& structure, const CutAtSpeed& cut, const StabilityOptions& options,
                       LobeRow& row) {
   const auto modulus = [&](const Fit& fit) {
-    return multiplier_at(fit.poles, process, row.spindle_speed_rpm, options.depth_limit_m, options).modulus;
+    return multiplier_at(fit.poles, cut.process, row.spindle_speed_rpm, options.depth_limit_m, options).modulus;
   };
   const double by_all = modulus(structure.all);
-  double open = 0.0;
+  double change = 0.0;
   for (const Fit* half : {&structure.even, &structure.odd})
-    open = std::max(open, std::abs(modulus(*half) / by_all - 1.0));
-  row.error_estimate += 2.0 * open;
-  if (row.status != StabilityStatus::stable_to_depth_limit || by_all * (1.0 + row.error_estimate) < 1.0) return;
-  row.error_estimate = std::max(row.error_estimate, 1.0);
-  row.status = StabilityStatus::data_insufficient;
+    change = std::max(change, std::abs(modulus(*half) / by_all - 1.0));
+  row.error_estimate += 2.0 * change;
+  if (row.status != StabilityStatus::stable_to_depth_limit) return;
+  const double open = open_below_limit(structure, cut, options);
+  const bool by_multiplier = by_all * (1.0 + row.error_estimate) >= 1.0;
+  if (!by_multiplier && open <= 0.0) return;
+  row.error_estimate = std::max({row.error_estimate, open, by_multiplier ? 1.0 : 0.0});
+  row.status = StabilityStatus::data_limited;  // at best; judged by the estimate
 }
 
 /// True if the poles leave more than a tenth of the lines somewhere, measured by the largest line of twenty-one.
@@ -353,7 +372,7 @@ LobeRow row_by_lines(const FittedStructure& structure, const MillingProcess& pro
     if (bounds) follow_to_lines(structure, cut, point);
   }
   std::ranges::stable_sort(row.crossings, {}, &LobePoint::depth_m);
-  if (row.at_limit) compare_at_limit(structure, process, options, row);
+  if (row.at_limit) compare_at_limit(structure, cut, options, row);
   take_limit_from_crossings(row);
   if (much_left) add_crossing_of_remainder(structure, cut, row.limiting_depth_m, row);
   judge_by_estimate(row, options);

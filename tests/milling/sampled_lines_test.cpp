@@ -331,6 +331,38 @@ TEST(SampledLines, ARowAtTheDepthLimitIsNoAnswerBesideANoseThoughItsEstimateOfTh
   EXPECT_EQ(row.status, StabilityStatus::data_insufficient);
 }
 
+/// Of eighteen rows of noisy lines, whose depth limits lie some estimates below the first crossing, those that are
+/// called stable.
+int stable_below_crossing(const FlipLobes& lobes, double estimates) {
+  Draws draw(9);
+  int stable = 0;
+  for (int i = 0; i < 6; ++i) {
+    const FittedStructure fit = lobes.fit(0.003, draw);
+    for (const double rpm : {9400.0, 11000.0, 12200.0}) {
+      const LobeRow deep = limiting_depth(fit, lobes.process, rpm, first_only());
+      StabilityOptions options = first_only();
+      options.depth_limit_m = deep.limiting_depth_m * (1.0 - estimates * deep.error_estimate);
+      const LobeRow row = limiting_depth(fit, lobes.process, rpm, options);
+      EXPECT_TRUE(row.at_limit);
+      stable += row.status == StabilityStatus::stable_to_depth_limit ? 1 : 0;
+      // Else the row reaches down to where the crossing may lie.
+      if (row.status != StabilityStatus::stable_to_depth_limit) {
+        EXPECT_LE(options.depth_limit_m * (1.0 - row.error_estimate),
+                  deep.limiting_depth_m * (1.0 - 0.99 * deep.error_estimate));
+      }
+    }
+  }
+  return stable;
+}
+
+// A crossing that lies beyond the depth limit by less than the lines leave open may lie below it, whatever |μ| is
+// there.
+TEST(SampledLines, ARowIsStableToADepthLimitOnlyIfItsFirstCrossingBeyondLiesClearlyDeeper) {
+  const FlipLobes lobes;
+  EXPECT_EQ(stable_below_crossing(lobes, 0.5), 0);
+  EXPECT_EQ(stable_below_crossing(lobes, 2.0), 18);
+}
+
 TEST(SampledLines, AFlipWhoseEigenvaluesHaveMetOnTheGridLeavesAllOpen) {
   const FlipLobes lobes;
   Draws draw(7);
