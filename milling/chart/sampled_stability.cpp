@@ -252,11 +252,14 @@ void follow_to_lines(const FittedStructure& structure, const CutAtSpeed& cut, Lo
 
 /// By how much of the depth limit a row that is stable up to there may be unstable below it, by the first crossing
 /// beyond: 1 - w (1 - e)/limit for one at w with the estimate e; 0 or less if it lies clearly beyond, and if there is
-/// none up to half as deep again.
+/// none up to half as deep again, or up to the height of the edges.
 double open_below_limit(const FittedStructure& structure, const CutAtSpeed& cut, const StabilityOptions& options) {
   constexpr double looked_at = 1.5;
+  constexpr double searched_beyond = 1.2;  // a search looks at depths a little beyond its limit
   StabilityOptions beyond = options;
-  beyond.depth_limit_m *= looked_at;
+  beyond.depth_limit_m =
+      std::min(looked_at * options.depth_limit_m, cut.process.cutter.envelope.height_m / searched_beyond);
+  if (beyond.depth_limit_m <= options.depth_limit_m) return 0.0;
   beyond.follow = 1.0;
   const LobeRow row = limiting_depth(structure.all.poles, cut.process, cut.spindle_speed_rpm, beyond);
   if (row.at_limit || row.crossings.empty()) return 0.0;
