@@ -126,10 +126,11 @@ PartialFractions unscaled(const Fit& fit, const Lines& lines, Index rows, Index 
   return sum;
 }
 
-/// True if more than round-off and what no pole of the fit can carry is left of the lines.
+/// True if more than round-off and what no pole of the fit can carry is left of the lines, and less than of a fit that
+/// has missed a mode, whose rest is no noise.
 bool noisy(const Fit& fit) {
-  constexpr double no_noise = 1e-6;
-  return fit.weighed > no_noise;
+  constexpr double no_noise = 1e-6, no_fit = 0.1;
+  return fit.weighed > no_noise && fit.weighed < no_fit;
 }
 
 /// The poles of a fit, and as many weakly damped pairs more where it leaves most of the lines: at the largest weighed
@@ -174,8 +175,8 @@ PartialFractions vector_fit(const Eigen::VectorXd& hz, const std::vector<Eigen::
   }
   Fit found = improved(lines, poles / lines.omega);
   if (noisy(found)) {
-    const Lines evenly = weighed_by_neighbours(lines);
-    found = with_least_squares(evenly, with_poles(evenly, found.poles));
+    const Lines weighed = weighed_by_scatter(lines, found);
+    found = with_least_squares(weighed, with_poles(weighed, found.poles));
   }
   return unscaled(found, lines, H.front().rows(), H.front().cols());
 }
@@ -203,8 +204,8 @@ PartialFractions rational_fit(const Eigen::VectorXd& hz, const std::vector<Eigen
   }
   best = improved(lines, best.poles);
   if (noisy(best)) {
-    const Lines evenly = weighed_by_neighbours(lines);
-    best = with_poles_of_noisy_lines(evenly, with_poles(evenly, best.poles));
+    const Lines weighed = weighed_by_scatter(lines, best);
+    best = with_poles_of_noisy_lines(weighed, with_poles(weighed, best.poles));
   }
   return unscaled(best, lines, H.front().rows(), H.front().cols());
 }

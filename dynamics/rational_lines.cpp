@@ -22,6 +22,8 @@ namespace {
 
 /// A line of nothing must not get all the weight.
 constexpr double least_weighed = 1e-8;
+/// Lines without noise must not have infinite weights.
+constexpr double least_scatter = 1e-12;
 
 /// The real combinations of the entries with the most weight: eigenvectors of the entries' Gram matrix.
 Eigen::MatrixXcd main_combinations(const Eigen::MatrixXcd& entries, const Eigen::VectorXcd& weight) {
@@ -129,15 +131,15 @@ Lines telling(const Lines& lines) {
           lines.scale,   lines.omega};
 }
 
-Lines weighed_by_neighbours(Lines lines) {
-  constexpr Index beside = 5;
-  const Eigen::VectorXd squares = lines.entries.rowwise().squaredNorm();
-  const Index count = squares.size();
+Lines weighed_by_scatter(Lines lines, const Fit& fit) {
+  constexpr Index beside = 10;
+  const Eigen::MatrixXcd rest = basis(lines.s, fit.poles) * fit.coefficients - lines.entries;
+  const Index count = rest.rows(), inner = count - 2;
+  const Eigen::VectorXd squares =
+      (rest.topRows(inner) - 2.0 * rest.middleRows(1, inner) + rest.bottomRows(inner)).rowwise().squaredNorm() / 6.0;
   for (Index i = 0; i < count; ++i) {
-    const Index from = std::max<Index>(i - beside, 0), to = std::min(i + beside + 1, count);
-    const double others = squares.segment(from, i - from).sum() + squares.segment(i + 1, to - i - 1).sum();
-    const double mean = std::sqrt(others / static_cast<double>(to - from - 1));
-    lines.weight(i) = 1.0 / std::sqrt(std::max(mean, least_weighed));
+    const Index from = std::clamp<Index>(i - 1 - beside, 0, inner - 1), to = std::clamp(i + beside, from + 1, inner);
+    lines.weight(i) = 1.0 / std::max(std::sqrt(squares.segment(from, to - from).mean()), least_scatter);
   }
   return lines;
 }

@@ -30,10 +30,6 @@ struct Lines {
 /// misses most: even lines alone would miss a peak that is sharper than they are close.
 [[nodiscard]] Lines telling(const Lines& lines);
 
-/// The lines weighed by the root mean square of ‖H‖ of the five beside each on either side, without itself: a weight by
-/// a line of noise goes with that noise, so that squares would be least beside the mean of the lines.
-[[nodiscard]] Lines weighed_by_neighbours(Lines lines);
-
 /// The distance between the lines about a frequency, scaled as they are.
 [[nodiscard]] double spacing_at(const Lines& lines, double s);
 
@@ -66,5 +62,13 @@ struct Fit {
 
 /// W (fit − H), lines × entries.
 [[nodiscard]] Eigen::MatrixXcd weighed_rest(const Lines& lines, const Fit& fit);
+
+/// The lines weighed by the noise σ about each, 1/σ (Aitken 1935), which is not of one size where a tool was swapped:
+///
+///     σ² = mean of ‖r_{j−1} − 2 r_j + r_{j+1}‖²/6      over the ten lines j on either side,
+///
+/// where r is what a fit leaves of the lines. Of that the second differences hold the noise, but little of a mode that
+/// the fit lacks.
+[[nodiscard]] Lines weighed_by_scatter(Lines lines, const Fit& fit);
 
 }  // namespace thinwall::dynamics::rational

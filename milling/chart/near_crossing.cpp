@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -21,6 +22,12 @@ using Fit = FittedStructure::Fit;
 using NearAxis = CriticalDepths::NearAxis;
 
 constexpr double clearly_below = 0.99;
+constexpr double as_deep = 1.3, nearest_looked_at = 0.1;
+
+/// True of the ends of the half circle, where eigenvalues are real or conjugate.
+bool at_end(double theta_rad) {
+  return theta_rad == 0.0 || theta_rad == std::numbers::pi;
+}
 
 double off_axis(std::complex<double> nu) {
   return std::abs(nu.imag()) / nu.real();
@@ -38,12 +45,9 @@ bool leads_to(const GainOnCircle& gain, double theta_rad, std::complex<double> n
 /// still reach above that depth, but for those on the path of its crossing: of those below the depth and of those above
 /// it the nearest to the axis. Of conjugate ones at the ends of the half circle there is one.
 std::vector<NearAxis> nearest_to_axis(const CriticalDepths& search, const GainOnCircle& gain, double depth_m) {
-  constexpr double as_deep = 1.3, nearest_looked_at = 0.1;
   constexpr int most = 6;
   std::vector<NearAxis> near = search.near_axis(as_deep * depth_m, nearest_looked_at);
-  std::erase_if(near, [](const NearAxis& at) {
-    return (at.theta_rad == 0.0 || at.theta_rad == std::numbers::pi) && at.nu.imag() < 0.0;
-  });
+  std::erase_if(near, [](const NearAxis& at) { return at_end(at.theta_rad) && at.nu.imag() < 0.0; });
   std::ranges::sort(near, {}, [](const NearAxis& at) { return off_axis(at.nu); });
   std::vector<NearAxis> others;
   int below = 0, above = 0;
@@ -56,15 +60,22 @@ std::vector<NearAxis> nearest_to_axis(const CriticalDepths& search, const GainOn
   return others;
 }
 
+/// The eigenvalues of a gain at one angle, with 1/Re ν < depth_m and |Im ν| of at most that share of Re ν.
+std::vector<NearAxis> near_axis_at(GainOnCircle gain, double theta_rad, double depth_m, double share) {
+  gain.stops = {theta_rad};
+  CriticalDepths at_angle(std::move(gain));
+  (void)at_angle.up_to(depth_m);
+  return at_angle.near_axis(depth_m, share);
+}
+
 /// The distance from the eigenvalue of a flip or fold at a depth to the next real one at that angle, relative. 1 where
 /// there is no other; 0 where the gain lacks the first, because by it the two have met already.
-double gap_to_next_real(GainOnCircle gain, Bifurcation kind, double depth_m) {
+double gap_to_next_real(const GainOnCircle& gain, Bifurcation kind, double depth_m) {
   constexpr double deepest = 5.0, same = 0.05;
-  gain.stops = {kind == Bifurcation::flip ? std::numbers::pi : 0.0};
-  CriticalDepths at_angle(std::move(gain));
-  (void)at_angle.up_to(deepest * depth_m);
+  const double theta_rad = kind == Bifurcation::flip ? std::numbers::pi : 0.0;
   std::vector<double> real;
-  for (const NearAxis& at : at_angle.near_axis(deepest * depth_m, 0.0)) real.push_back(at.nu.real() * depth_m);
+  for (const NearAxis& at : near_axis_at(gain, theta_rad, deepest * depth_m, 0.0))
+    real.push_back(at.nu.real() * depth_m);
   std::ranges::sort(real, {}, [](double nu) { return std::abs(nu - 1.0); });
   if (real.empty() || std::abs(real.front() - 1.0) > same) return 0.0;
   return real.size() < 2 ? 1.0 : std::abs(real[1] - real[0]);
@@ -145,6 +156,26 @@ std::optional<Eigenpair> on_fine_grid(const GainOnCircle& gain, const NearAxis& 
   }
 }
 
+/// Those eigenvalues of the coarse grid on the fine one. Two that nearly meet at an end of the half circle are further
+/// apart from one grid to the other than others, as the root of what these differ by: there all of the fine grid are
+/// looked at.
+std::vector<std::pair<double, Eigenpair>> on_fine_grid(const GainOnCircle& gain, const std::vector<NearAxis>& nearest,
+                                                       double depth_m) {
+  std::vector<std::pair<double, Eigenpair>> found;
+  std::vector<NearAxis> ends;
+  for (const NearAxis& near : nearest) {
+    if (auto pair = on_fine_grid(gain, near)) found.emplace_back(near.theta_rad, std::move(*pair));
+    else if (at_end(near.theta_rad) && std::ranges::find(ends, near.theta_rad, &NearAxis::theta_rad) == ends.end())
+      std::ranges::copy(near_axis_at(gain, near.theta_rad, as_deep * depth_m, nearest_looked_at),
+                        std::back_inserter(ends));
+  }
+  for (const NearAxis& near : ends) {
+    if (near.nu.imag() < 0.0) continue;
+    if (auto pair = on_fine_grid(gain, near)) found.emplace_back(near.theta_rad, std::move(*pair));
+  }
+  return found;
+}
+
 /// By how much the estimate of a row grows for eigenvalues near the axis that may be crossings below its limit, as
 /// widen_for_near_crossings() says; 0 if there are none.
 double growth_by_near(const FittedStructure& structure, const CutAtSpeed& cut, Resolution coarse, double shape_m,
@@ -155,17 +186,16 @@ double growth_by_near(const FittedStructure& structure, const CutAtSpeed& cut, R
   const double depth_m = row.limiting_depth_m;
   constexpr double rounding = 1e-9;
   double growth = 0.0;
-  for (const NearAxis& near : nearest) {
-    const std::optional<Eigenpair> pair = on_fine_grid(gain, near);
-    if (!pair || leads_to(gain, near.theta_rad, pair->nu, depth_m)) continue;
-    const Open open = grids.open(near.theta_rad, *pair);
+  for (const auto& [theta_rad, pair] : on_fine_grid(gain, nearest, depth_m)) {
+    if (leads_to(gain, theta_rad, pair.nu, depth_m)) continue;
+    const Open open = grids.open(theta_rad, pair);
     if (!open.finite()) return 1.0;
-    const double off = std::abs(pair->nu.imag());
+    const double off = std::abs(pair.nu.imag());
     if (off > 2.0 * open.across) continue;
-    const double near_m = 1.0 / (pair->nu.real() + open.along + std::sqrt(2.0 * open.across * off));
+    const double near_m = 1.0 / (pair.nu.real() + open.along + std::sqrt(2.0 * open.across * off));
     if (near_m >= clearly_below * depth_m) continue;
     // A real one is a crossing above the limit, and in the estimate as far as that reaches.
-    const bool apart = row.at_limit || off_axis(pair->nu) > rounding;
+    const bool apart = row.at_limit || off_axis(pair.nu) > rounding;
     growth = std::max(growth, depth_m / near_m - 1.0 - (apart ? 0.0 : row.error_estimate));
   }
   return growth;
@@ -183,7 +213,7 @@ void judge_by_estimate(LobeRow& row, const StabilityOptions& options) {
 
 void widen_for_near_crossings(const FittedStructure& structure, const MillingProcess& process,
                               const StabilityOptions& options, LobeRow& row) {
-  // The estimate at the depth limit is one of |μ|, which may be beyond 1 where |μ| is small.
+  // The estimate at the depth limit is one of |μ|, or of what may be unstable below it, either of which may exceed 1.
   if (!row.at_limit && !(row.error_estimate < 1.0)) return;
   const double depth_m = row.limiting_depth_m;
   const CutAtSpeed cut = cut_at_speed(structure.all.poles, process, row.spindle_speed_rpm);

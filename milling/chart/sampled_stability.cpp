@@ -250,42 +250,49 @@ void follow_to_lines(const FittedStructure& structure, const CutAtSpeed& cut, Lo
   if (cut.process.cutter.depends_on_depth()) point.error_estimate += std::abs(change - 1.0);
 }
 
-/// By how much of the depth limit a row that is stable up to there may be unstable below it, by the first crossing
-/// beyond: 1 - w (1 - e)/limit for one at w with the estimate e; 0 or less if it lies clearly beyond, and if there is
-/// none up to half as deep again, or up to the height of the edges.
-double open_below_limit(const FittedStructure& structure, const CutAtSpeed& cut, const StabilityOptions& options) {
+/// Options of a row that is looked for up to half as deep again as the depth limit, as far as the cutter's edges reach.
+StabilityOptions beyond_limit(const StabilityOptions& options, const Cutter& cutter) {
   constexpr double looked_at = 1.5;
   constexpr double searched_beyond = 1.2;  // a search looks at depths a little beyond its limit
   StabilityOptions beyond = options;
-  beyond.depth_limit_m =
-      std::min(looked_at * options.depth_limit_m, cut.process.cutter.envelope.height_m / searched_beyond);
-  if (beyond.depth_limit_m <= options.depth_limit_m) return 0.0;
+  const double reached_m = std::min(looked_at * options.depth_limit_m, cutter.envelope.height_m / searched_beyond);
+  beyond.depth_limit_m = std::max(reached_m, options.depth_limit_m);
   beyond.follow = 1.0;
-  const LobeRow row = limiting_depth(structure.all.poles, cut.process, cut.spindle_speed_rpm, beyond);
-  if (row.at_limit || row.crossings.empty()) return 0.0;
-  LobePoint first = row.crossings.front();
-  follow_to_lines(structure, cut, first);
-  return 1.0 - first.depth_m * (1.0 - first.error_estimate) / options.depth_limit_m;
+  return beyond;
 }
 
-/// Adds to a row that is stable up to the depth limit what the lines leave open there: twice the larger change of |μ|.
-/// If by that the cut may be unstable, nothing is known of its limit. If it may be by the first crossing beyond, the
-/// row is the lines' as far as that reaches below the limit.
+/// By how much of the depth limit a row that is stable up to there may be unstable below it,
+///
+///     1 − min(w (1 − e), w − 2 max |w − w_half|)/limit,
+///
+/// at least 0, with the depth w of the first crossing beyond and its estimate e, and that of the fits to every second
+/// line, each up to half as deep again as the limit; a fit without a crossing has that depth.
+double open_below_limit(const FittedStructure& structure, const CutAtSpeed& cut, const StabilityOptions& options) {
+  const StabilityOptions beyond = beyond_limit(options, cut.process.cutter);
+  const auto row_by = [&](const Fit& fit) {
+    return limiting_depth(fit.poles, cut.process, cut.spindle_speed_rpm, beyond);
+  };
+  const LobeRow row = row_by(structure.all);
+  const double by_all_m = row.limiting_depth_m;
+  double least_m = by_all_m;
+  for (const Fit* half : {&structure.even, &structure.odd})
+    least_m = std::min(least_m, by_all_m - 2.0 * std::abs(by_all_m - row_by(*half).limiting_depth_m));
+  if (!row.crossings.empty()) {
+    LobePoint first = row.crossings.front();
+    follow_to_lines(structure, cut, first);
+    least_m = std::min(least_m, first.depth_m * (1.0 - first.error_estimate));
+  }
+  return std::max(0.0, 1.0 - least_m / options.depth_limit_m);
+}
+
+/// Compares a row that is stable up to the depth limit with what the lines leave open of the first crossing beyond. If
+/// that may lie below the limit, the row is the lines' by as far as it may.
 void compare_at_limit(const FittedStructure& structure, const CutAtSpeed& cut, const StabilityOptions& options,
                       LobeRow& row) {
-  const auto modulus = [&](const Fit& fit) {
-    return multiplier_at(fit.poles, cut.process, row.spindle_speed_rpm, options.depth_limit_m, options).modulus;
-  };
-  const double by_all = modulus(structure.all);
-  double change = 0.0;
-  for (const Fit* half : {&structure.even, &structure.odd})
-    change = std::max(change, std::abs(modulus(*half) / by_all - 1.0));
-  row.error_estimate += 2.0 * change;
   if (row.status != StabilityStatus::stable_to_depth_limit) return;
   const double open = open_below_limit(structure, cut, options);
-  const bool by_multiplier = by_all * (1.0 + row.error_estimate) >= 1.0;
-  if (!by_multiplier && open <= 0.0) return;
-  row.error_estimate = std::max({row.error_estimate, open, by_multiplier ? 1.0 : 0.0});
+  if (open <= 0.0) return;
+  row.error_estimate = std::max(row.error_estimate, open);
   row.status = StabilityStatus::data_limited;  // at best; judged by the estimate
 }
 

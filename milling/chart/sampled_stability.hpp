@@ -57,17 +57,17 @@ struct FittedStructure {
 ///
 /// It grows by the distance to another crossing that the lines leave open, as beside the nose of a flip lobe
 /// (widen_for_near_crossings() of near_crossing.hpp). A row that misses the tolerance for all this is `data_limited`,
-/// beyond a tenth of the depth `data_insufficient`. A row that is stable up to the depth limit has the change of |μ|
-/// there in its estimate, and is `data_insufficient` if by that it may not be. It is compared in depth, too, with the
+/// beyond a tenth of the depth `data_insufficient`. A row that is stable up to the depth limit is compared with the
 /// first crossing up to half as deep again: if that lies at w with the estimate e, and w (1 − e) is below the limit,
-/// the estimate is what it is below by, and the row `data_limited` or `data_insufficient`. Where the
-/// remainder is more than a tenth of the lines, as of a fit that missed modes, CriticalDepths looks for a crossing of
-/// poles and remainder below the row's limit; one that is found is the limit, with an estimate of 1. Any cutter will
-/// do. Throws InputError for a bad process, option or speed, and as require_range(); NumericalError if an
-/// eigen-solution fails. Cost: a row from poles, and for each crossing some ten sums over the harmonics within the
-/// lines, each O(harmonics contacts²), of which all but the first few fall away where nothing remains of the lines, and
-/// the receptance of ten fits at the harmonics; once a row that of widen_for_near_crossings(), which searches the
-/// depths up to the limit again; for a row at the limit another one from poles.
+/// the estimate is what it is below by, and the row `data_limited` or `data_insufficient`. So it is by what w − 2 |w −
+/// w_h| is below the limit, w_h being the depth by every second line alone. Where the remainder is more than a tenth of
+/// the lines, as of a fit that missed modes, CriticalDepths looks for a crossing of poles and remainder below the row's
+/// limit; one that is found is the limit, with an estimate of 1. Any cutter will do. Throws InputError for a bad
+/// process, option or speed, and as require_range(); NumericalError if an eigen-solution fails. Cost: a row from poles,
+/// and for each crossing some ten sums over the harmonics within the lines, each O(harmonics contacts²), of which all
+/// but the first few fall away where nothing remains of the lines, and the receptance of ten fits at the harmonics;
+/// once a row that of widen_for_near_crossings(), which searches the depths up to the limit again; for a row at the
+/// limit three from poles.
 [[nodiscard]] LobeRow limiting_depth(const FittedStructure& structure, const MillingProcess& process,
                                      double spindle_speed_rpm, const StabilityOptions& options);
 

@@ -363,6 +363,30 @@ TEST(SampledLines, ARowIsStableToADepthLimitOnlyIfItsFirstCrossingBeyondLiesClea
   EXPECT_EQ(stable_below_crossing(lobes, 2.0), 18);
 }
 
+// The first crossing of a structure that is a tenth more compliant lies at 1/1.1 of the depth.
+TEST(SampledLines, ARowAtTheDepthLimitIsOpenByTwiceTheChangeOfItsFirstCrossingByEverySecondLine) {
+  const FlipLobes lobes;
+  constexpr double rpm = 11000.0, more_compliant = 1.1;
+  FittedStructure fit = fitted_structure({lines_of(lobes.poles, 200.0, 8000.0, 10.0), {}}, lobes.process.frame);
+  RelativeStructure& odd = fit.odd.poles;
+  odd.phi *= more_compliant;
+  odd.R *= more_compliant;
+  const double first_m = lobes.row(rpm).limiting_depth_m;
+  const double reached_m = first_m * (1.0 - 2.0 * (1.0 - 1.0 / more_compliant));
+  StabilityOptions options = first_only();
+  for (const double limit : {0.97, 0.86, 0.75}) {  // of the first crossing; it may lie 0.18 below
+    options.depth_limit_m = limit * first_m;
+    const LobeRow row = limiting_depth(fit, lobes.process, rpm, options);
+    ASSERT_TRUE(row.at_limit);
+    if (options.depth_limit_m < reached_m) {
+      EXPECT_EQ(row.status, StabilityStatus::stable_to_depth_limit);
+    } else {
+      EXPECT_NE(row.status, StabilityStatus::stable_to_depth_limit);
+      EXPECT_NEAR(row.error_estimate, 1.0 - reached_m / options.depth_limit_m, 1e-3) << "the rows' own tolerance";
+    }
+  }
+}
+
 TEST(SampledLines, AFlipWhoseEigenvaluesHaveMetOnTheGridLeavesAllOpen) {
   const FlipLobes lobes;
   Draws draw(7);
