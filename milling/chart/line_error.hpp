@@ -16,8 +16,9 @@ struct LineGap {
   double row_error = 0.0;   ///< the larger estimate of the two rows, relative: what no speed between them can mend
 };
 
-/// A gap is narrow where its speeds differ by this share: a step of the boundary within is drawn as one.
-constexpr double narrow_gap = 1e-5;
+/// A gap is narrow where its speeds differ by this share, which no spindle holds: a step of the boundary within is
+/// drawn as one.
+constexpr double narrow_gap = 1e-4;
 
 /// A flip lobe that is narrower than this share of the speed is not searched for: no spindle holds its speed better.
 constexpr double narrow_flip_lobe = 1e-3;
