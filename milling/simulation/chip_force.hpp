@@ -69,6 +69,7 @@ struct NonlinearContact {
 /// The coefficients of each tooth.
 [[nodiscard]] inline std::vector<CuttingCoefficients> coefficients_of_teeth(const MillingProcess& process) {
   std::vector<CuttingCoefficients> of_tooth;
+  of_tooth.reserve(static_cast<std::size_t>(process.cutter.teeth));
   for (int j = 0; j < process.cutter.teeth; ++j) of_tooth.push_back(coefficients(process, j));
   return of_tooth;
 }

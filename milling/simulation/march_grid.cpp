@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "milling/cut/cut_cycle.hpp"
@@ -114,7 +115,8 @@ class Builder {
   void add_pasts(const MarchStretch& stretch) {
     for (int i = 0; i <= 2 * stretch.steps; ++i) {
       const double rotation = MarchGrid::rotation_rad(stretch, i);
-      int point = grid_.first_point[static_cast<std::size_t>(stretch.first_node + i)];
+      const int node = stretch.first_node + i;
+      int point = grid_.first_point[static_cast<std::size_t>(node)];
       for (const Pass& pass : passes_at(teeth_.cycle, stretch, rotation)) {
         CutPoint& p = grid_.points[static_cast<std::size_t>(point)];
         p.first_past = static_cast<int>(grid_.pasts.size());
@@ -166,8 +168,9 @@ class Builder {
   void interpolate(const MarchStretch& stretch, int place, double at) {
     const double nodes_before = (at - stretch.from_rad) / (stretch.to_rad - stretch.from_rad) * 2.0 * stretch.steps;
     const auto nearest = static_cast<int>(std::lround(nodes_before));
-    const auto point = [&](int node) {
-      return grid_.first_point[static_cast<std::size_t>(stretch.first_node + node)] + place;
+    const auto point = [&](int of_stretch) {
+      const int node = stretch.first_node + of_stretch;
+      return grid_.first_point[static_cast<std::size_t>(node)] + place;
     };
     if (std::abs(nodes_before - nearest) < 1e-6) {
       grid_.pasts.push_back({point(nearest), 1.0});
@@ -178,8 +181,8 @@ class Builder {
         std::clamp(static_cast<int>(std::floor(nodes_before)) - (window / 2 - 1), 0, 2 * stretch.steps + 1 - window);
     const Eigen::VectorXd weights =
         lagrange_polynomials(Eigen::VectorXd::LinSpaced(window, first, first + window - 1), nodes_before);
-    std::vector<int> order;  // the two about the moment come first
-    for (int k = 0; k < window; ++k) order.push_back(k);
+    std::vector<int> order(static_cast<std::size_t>(window));  // the two about the moment come first
+    std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(),
               [&](int a, int b) { return std::abs(first + a - nodes_before) < std::abs(first + b - nodes_before); });
     for (const int k : order) grid_.pasts.push_back({point(first + k), weights(k)});
