@@ -179,7 +179,7 @@ void add_corner(const Around& at, LineGap& gap) {
 
 }  // namespace
 
-std::vector<LineGap> line_gaps(const std::vector<LobeRow>& rows, const MillingProcess& process) {
+std::vector<LineGap> line_gaps(const std::vector<LobeRow>& rows, const MillingProcess& process, double narrow) {
   const double periods = process.cutter.pitches_rad.empty() ? process.cutter.teeth : 1.0;
   std::vector<LineGap> gaps(rows.empty() ? 0 : rows.size() - 1);
   std::vector<bool> joined(gaps.size());
@@ -190,7 +190,7 @@ std::vector<LineGap> line_gaps(const std::vector<LobeRow>& rows, const MillingPr
     gap.row_error = std::max(left.error_estimate, right.error_estimate);
     gap.corner_rpm = 0.5 * (left.spindle_speed_rpm + right.spindle_speed_rpm);
     gap.corner = !joined[i];
-    if (right.spindle_speed_rpm <= left.spindle_speed_rpm * (1.0 + narrow_gap)) continue;
+    if (right.spindle_speed_rpm <= left.spindle_speed_rpm * (1.0 + narrow)) continue;
     const Around at = around(rows, joined, i);
     const std::optional<double> flip = gap.corner ? std::nullopt : passage_of_flip(left, right, periods);
     if (flip) {

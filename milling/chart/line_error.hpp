@@ -16,9 +16,12 @@ struct LineGap {
   double row_error = 0.0;   ///< the larger estimate of the two rows, relative: what no speed between them can mend
 };
 
-/// A gap is narrow where its speeds differ by this share, which no spindle holds: a step of the boundary within is
-/// drawn as one.
-constexpr double narrow_gap = 1e-4;
+/// A gap is narrow where its speeds differ by this share: a step of the boundary within is drawn as one.
+constexpr double narrow_gap = 1e-5;
+
+/// That share in a chart from lines, which tell the speed of a step no better, while no spindle holds its speed so
+/// well.
+constexpr double narrow_gap_by_lines = 1e-4;
 
 /// A flip lobe that is narrower than this share of the speed is not searched for: no spindle holds its speed better.
 constexpr double narrow_flip_lobe = 1e-3;
@@ -34,8 +37,9 @@ constexpr double narrow_flip_lobe = 1e-3;
 /// is infinite. Where f_c T of a Hopf lobe, or of the least stable motion at the depth limit, passes a whole number and
 /// a half, a pair of multipliers passes −1 and a flip lobe may lie within (strong resonance 1:2; Kuznetsov, Elements of
 /// Applied Bifurcation Theory, 2004, section 9.5.3): the error of such a gap is infinite, too, unless it is narrower
-/// than `narrow_flip_lobe`, and its corner is that passage, linearly between the rows. The error is 0 of a narrow gap.
-/// `rows` by rising speed. Cost O(rows).
-[[nodiscard]] std::vector<LineGap> line_gaps(const std::vector<LobeRow>& rows, const MillingProcess& process);
+/// than `narrow_flip_lobe`, and its corner is that passage, linearly between the rows. The error is 0 of a gap
+/// that is narrower than the share `narrow`. `rows` by rising speed. Cost O(rows).
+[[nodiscard]] std::vector<LineGap> line_gaps(const std::vector<LobeRow>& rows, const MillingProcess& process,
+                                             double narrow = narrow_gap);
 
 }  // namespace thinwall::milling

@@ -117,7 +117,7 @@ Lobes refined(Lobes chart, const RowAt& row_at, const MillingProcess& process, c
   std::vector<LineGap> gaps;
   const auto refine = [&] {
     while (true) {
-      gaps = line_gaps(rows, process);
+      gaps = line_gaps(rows, process, line.narrow);
       const auto speeds = next_speeds(rows, gaps, line.tolerance, static_cast<std::size_t>(line.most_added - added));
       if (speeds.empty()) return;
       insert_rows(rows, speeds, row_at, options, kept);

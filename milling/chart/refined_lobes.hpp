@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "milling/chart/line_error.hpp"
 #include "milling/chart/lobes.hpp"
 #include "milling/chart/operating_point.hpp"
 #include "milling/cut/process.hpp"
@@ -12,8 +13,9 @@ namespace thinwall::milling {
 
 /// The line that is wanted.
 struct LineOptions {
-  double tolerance = 0.02;  ///< relative, in (0, 1): of the line between two speeds, against the boundary there
-  int most_added = 400;     ///< ≥ 0: speeds added at which refinement gives up
+  double tolerance = 0.02;     ///< relative, in (0, 1): of the line between two speeds, against the boundary there
+  int most_added = 400;        ///< ≥ 0: speeds added at which refinement gives up
+  double narrow = narrow_gap;  ///< relative width of gaps that are not halved
 };
 
 /// Every violation, empty if there is none.

@@ -79,10 +79,12 @@ std::vector<double> speeds_of(const milling::Lobes& lobes) {
 milling::Lobes refined_chart(const setup::CutSetup& source, const Chart& chart,
                              const std::vector<milling::OperatingPoint>& points, const milling::KeptRows& kept) {
   const setup::LobesOptions& wanted = *source.lobes;
-  milling::Lobes lobes = milling::refined(
-      chart.by(wanted.method, even_speeds(wanted), kept), chart.row_at(wanted.method), chart.process,
-      chart.options.stability, {wanted.line_tolerance, setup::most_added(wanted)}, asked_speeds(source, points), kept);
   const auto* sampled = std::get_if<milling::FittedStructure>(&chart.structure);
+  const double narrow = sampled == nullptr ? milling::narrow_gap : milling::narrow_gap_by_lines;
+  milling::Lobes lobes =
+      milling::refined(chart.by(wanted.method, even_speeds(wanted), kept), chart.row_at(wanted.method), chart.process,
+                       chart.options.stability, {wanted.line_tolerance, setup::most_added(wanted), narrow},
+                       asked_speeds(source, points), kept);
   if (sampled == nullptr) return lobes;
   return milling::widened_for_near_crossings(*sampled, chart.process, chart.options.stability, std::move(lobes));
 }
