@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "core/dense_eigenvalues.hpp"
@@ -64,6 +66,22 @@ Eigen::ArrayXd errors_if_unresolved(const CutAtSpeed& cut, double depth_m) {
   const double T = phase_in_cut(cut, 1.0, depth_m);
   const Eigen::ArrayXd swings = 1.0 / (T * cut.structure.poles.real().cwiseAbs().array());
   return error_over_gain * swings.min(1.0) * loop_gains(cut, mean_stiffness(cut.process, depth_m), depth_m);
+}
+
+/// The multipliers at a depth; none if the map is not finite or its eigenvalues do not settle. Within a long period,
+/// as a revolution of a cutter with unequal pitches, chatter may grow by more than the digits of a double: I + wK is
+/// then singular to round-off at all depths about.
+std::optional<Eigen::VectorXcd> found_multipliers(const DiscreteCut& d, double depth_m) {
+  core::check_interrupt();
+  Eigen::MatrixXd map = period_map(d.loop, depth_m);
+  // If I + wK is singular to round-off, a depth that a search may well come upon, a multiplier is infinite; a hair
+  // beside it is large, and no other changes.
+  constexpr double hair = 1e-9;
+  if (!map.allFinite()) map = period_map(d.loop, (1.0 + hair) * depth_m);
+  if (!map.allFinite()) return std::nullopt;
+  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(map, false);
+  if (eigen.info() != Eigen::Success) return std::nullopt;
+  return eigen.eigenvalues();
 }
 
 }  // namespace
@@ -148,23 +166,15 @@ double surely_stable_depth_m(const CutAtSpeed& cut) {
 }
 
 Eigen::VectorXcd multipliers(const DiscreteCut& d, double depth_m) {
-  core::check_interrupt();
-  Eigen::MatrixXd map = period_map(d.loop, depth_m);
-  // If I + wK is singular to round-off, a depth that a search may well come upon, a multiplier is infinite; a hair
-  // beside it is large, and no other changes.
-  constexpr double hair = 1e-9;
-  if (!map.allFinite()) map = period_map(d.loop, (1.0 + hair) * depth_m);
-  // A count over NaN would call the cut stable.
-  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(map.allFinite() ? map : Eigen::MatrixXd::Zero(1, 1), false);
-  if (!map.allFinite() || eigen.info() != Eigen::Success) {
-    throw core::NumericalError("stability: the multipliers at a depth of " + std::to_string(depth_m) +
-                               " m were not found; check the structure at the cut, or ask for smaller depths");
-  }
-  return eigen.eigenvalues();
+  if (const std::optional<Eigen::VectorXcd> found = found_multipliers(d, depth_m)) return *found;
+  throw core::NumericalError("stability: the multipliers at a depth of " + std::to_string(depth_m) +
+                             " m were not found; check the structure at the cut, or ask for smaller depths");
 }
 
 int unstable(const DiscreteCut& d, double depth_m) {
-  return static_cast<int>((multipliers(d, depth_m).cwiseAbs().array() > 1.0).count());
+  const std::optional<Eigen::VectorXcd> found = found_multipliers(d, depth_m);
+  if (!found) return std::numeric_limits<int>::max();
+  return static_cast<int>((found->cwiseAbs().array() > 1.0).count());
 }
 
 bool stable(const DiscreteCut& d, double depth_m) {

@@ -69,7 +69,8 @@ struct DiscreteCut {
 /// eigen-solution fails.
 [[nodiscard]] Eigen::VectorXcd multipliers(const DiscreteCut& d, double depth_m);
 
-/// The number of multipliers outside of the unit circle.
+/// The number of multipliers outside of the unit circle; the largest int where multipliers() would fail, as where
+/// chatter grows within a period by more than the digits of a double: the cut is far from stable there.
 [[nodiscard]] int unstable(const DiscreteCut& d, double depth_m);
 
 /// True if no multiplier lies outside of the unit circle: by powers_vanish(), or where that cannot tell by the count.

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "milling/chart/lobes.hpp"
 #include "milling/direct/cut_at_speed.hpp"
@@ -54,6 +55,18 @@ TEST(DepthLimit, HidesNoCrossingThatACoarseGridSeesBeyondIt) {
   ASSERT_EQ(row.crossings.size(), 2U);
   EXPECT_NEAR(row.crossings[1].depth_m, 22.78476e-3, 1e-8) << "as with a deeper limit";
   EXPECT_LE(row.searched_m, cut.deepest_m);
+}
+
+// A gain of 1e20 in all entries: I + wK is singular to round-off at every depth, as where chatter grows by so much
+// within a revolution.
+TEST(Unstable, AreMoreThanAllCrossingsWhereMultipliersAreBeyondTheDigitsOfADouble) {
+  const RandomCut cut = random_cut(7);
+  const CutAtSpeed at_speed = cut_at_speed(cut.structure, cut.process, 10000.0);
+  DiscreteCut d = discrete(at_speed, resolving(at_speed, cut.deepest_m), 0.0);
+  d.loop.K.setConstant(1e20);
+  EXPECT_THROW((void)multipliers(d, 1e-3), core::NumericalError);
+  EXPECT_GT(unstable(d, 1e-3), d.loop.K.rows() + 2 * d.loop.flow.size());
+  EXPECT_FALSE(stable(d, 1e-3));
 }
 
 class Islands : public ::testing::TestWithParam<unsigned> {};
