@@ -12,8 +12,8 @@ namespace thinwall::linalg {
 /// those of six steps before, until all above the bound, and the largest one in any case, have settled. Nothing if A is
 /// not finite, or if they have not settled in half as many steps as it has rows. The
 /// starting vectors are always the same. An eigenvalue whose vector is orthogonal to what they span would be missed,
-/// so that the caller must have another way of counting. Cost: a product of A with a vector for each of some twenty to
-/// forty steps.
+/// so that the caller must have another way of counting, and of an eigenvalue with more than two vectors two are found.
+/// Cost: a product of A with a vector for each of some twenty to forty steps.
 [[nodiscard]] std::optional<Eigen::VectorXcd> largest_eigenvalues(const Eigen::MatrixXcd& A, double least);
 
 }  // namespace thinwall::linalg

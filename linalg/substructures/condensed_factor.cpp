@@ -52,7 +52,7 @@ CondensedFactor::CondensedFactor(const SparseMatrix& A, const std::vector<int>& 
     : L_(border_last(A, border, node_of_row)), cut_(tree_cut(L_)) {
   core::require_memory(factor_bytes(L_, cut_), "the factor of a domain of " + std::to_string(A.rows()) + " rows");
   values_ = LargeArray<double>(L_.values());
-  if (supernodal_factor(A, L_, cut_, values_.data())) {
+  if (supernodal_factor({.A = A}, L_, cut_, values_.data())) {
     throw core::NumericalError("the matrix of a domain of " + std::to_string(A.rows()) +
                                " rows is not positive definite: a motion without stiffness, or an element turned "
                                "inside out");

@@ -101,6 +101,8 @@ std::vector<std::string> validate(const LineOptions& options) {
   std::vector<std::string> found;
   if (!(options.tolerance > 0.0 && options.tolerance < 1.0))
     found.push_back("line tolerance " + std::to_string(options.tolerance) + ", must lie in (0, 1); 0.02 is usual");
+  if (!(options.narrow > 0.0 && options.narrow < 1.0))
+    found.push_back("narrow gap " + std::to_string(options.narrow) + ", must lie in (0, 1); 1e-5 is usual");
   if (options.most_added < 0)
     found.push_back(std::to_string(options.most_added) + " added speeds at most, must be 0 or more");
   return found;

@@ -330,7 +330,7 @@ void add_crossing_of_remainder(const FittedStructure& structure, const CutAtSpee
   const CrossingGrid grid(cut, limit_m);
   GainOnCircle gain = grid.gain(structure.all.remainder);
   gain.stops = with_peaks(grid.gain().stops, structure.all.remainder, grid.period_s());
-  for (const Crossing& found : CriticalDepths(gain).up_to(clearly_below * limit_m)) {
+  for (const Crossing& found : CriticalDepths(gain, CriticalDepths::Eigenvalues::all).up_to(clearly_below * limit_m)) {
     if (found.unstable_change < 0) continue;
     row.crossings.insert(row.crossings.begin(), grid.point(found));
     row.at_limit = false;

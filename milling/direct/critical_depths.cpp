@@ -46,12 +46,6 @@ double radius_bound(const Eigen::MatrixXcd& Z) {
   return std::sqrt(std::sqrt((square * square).norm()));
 }
 
-/// True if the largest eigenvalues of Z are found in less time than all of them.
-bool is_large(const Eigen::MatrixXcd& Z) {
-  constexpr Index rows = 60;
-  return Z.rows() >= rows;
-}
-
 using Path = CriticalDepths::Path;
 
 /// Pairs of eigenvalues that follow each other from one stop to the next, nearest to where the path leads first; those
@@ -155,7 +149,7 @@ void add_at_end(const GainOnCircle& gain, double theta, const std::vector<Path>&
 
 }  // namespace
 
-CriticalDepths::CriticalDepths(GainOnCircle gain) : gain_(std::move(gain)) {}
+CriticalDepths::CriticalDepths(GainOnCircle gain, Eigenvalues of_large) : gain_(std::move(gain)), of_large_(of_large) {}
 
 double CriticalDepths::none_below_m() {
   std::vector<Stop*> stops;
@@ -188,19 +182,25 @@ double CriticalDepths::bound_of(Stop& stop) {
   return *stop.bound;
 }
 
+/// True if the largest eigenvalues of Z do and are found in less time than all of them.
+bool CriticalDepths::finds_largest_only(const Stop& stop) const {
+  constexpr Index large = 60;
+  return of_large_ == Eigenvalues::reached && stop.Z.rows() >= large;
+}
+
 /// False if no eigenvalue can be larger than `smallest`. Two products tell more than the norm, at a third of the time
 /// of all eigenvalues, and are worth it where the norm is not far above; the largest eigenvalues of a large Z take
 /// less.
-bool CriticalDepths::reaches(Stop& stop, double smallest) {
+bool CriticalDepths::reaches(Stop& stop, double smallest) const {
   if (stop.norm <= smallest || (stop.bound && *stop.bound <= smallest)) return false;
-  return stop.norm > 2.0 * smallest || is_large(stop.Z) || bound_of(stop) > smallest;
+  return stop.norm > 2.0 * smallest || finds_largest_only(stop) || bound_of(stop) > smallest;
 }
 
 /// Finds the eigenvalues above `smallest`; those of a large Z down to a part of it, for a search that goes on deeper.
-void CriticalDepths::find_above(Stop& stop, double theta_rad, double smallest) {
+void CriticalDepths::find_above(Stop& stop, double theta_rad, double smallest) const {
   constexpr double deeper = 0.4;
   const bool is_real = theta_rad == 0.0 || theta_rad == pi;
-  if (!is_real && is_large(stop.Z)) {
+  if (!is_real && finds_largest_only(stop)) {
     if (const auto largest = linalg::largest_eigenvalues(stop.Z, deeper * smallest)) {
       stop.nu = -*largest;
       stop.known_above = deeper * smallest;

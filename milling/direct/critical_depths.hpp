@@ -20,8 +20,12 @@ namespace thinwall::milling {
 /// (linalg::largest_eigenvalues()), and kept, so that a search to a greater depth costs little more.
 class CriticalDepths {
  public:
+  /// Eigenvalues of a large Z: those that a depth can reach, of which one whose vector the starting vectors lack would
+  /// be missed, for searches whose crossings are counted by the multipliers afterwards; or all, for others.
+  enum class Eigenvalues { reached, all };
+
   /// Keeps `gain`, whose references must outlive the search.
-  explicit CriticalDepths(GainOnCircle gain);
+  explicit CriticalDepths(GainOnCircle gain, Eigenvalues of_large = Eigenvalues::reached);
 
   /// An eigenvalue ν(θ) of −Z, and how it came there.
   struct Path {
@@ -61,14 +65,16 @@ class CriticalDepths {
 
   Stop& at(double theta_rad);
   static double bound_of(Stop& stop);
-  static bool reaches(Stop& stop, double smallest);
-  static void find_above(Stop& stop, double theta_rad, double smallest);
+  [[nodiscard]] bool finds_largest_only(const Stop& stop) const;
+  [[nodiscard]] bool reaches(Stop& stop, double smallest) const;
+  void find_above(Stop& stop, double theta_rad, double smallest) const;
   /// Eigenvalues of −Z that a depth within twice the limit can reach.
   std::vector<Path> reached_at(double theta_rad, double depth_limit_m);
   void between(double from_rad, const std::vector<Path>& from, double to_rad, std::vector<Path>& to, int halvings,
                double depth_limit_m);
 
   GainOnCircle gain_;
+  Eigenvalues of_large_;
   std::map<double, Stop> stops_;  ///< by angle
   std::vector<Crossing> found_;
 };

@@ -22,16 +22,16 @@ namespace {
 
 using std::complex;
 
-/// The plate that stands in for a part: its thinnest extent, the thinnest floor of a prism, or the mean wall of a
-/// surface.
+/// The plate that stands in for a part: its thinnest extent, the floor of a prism with the densest modes, or the
+/// mean wall of a surface.
 struct Plate {
   double thickness_m = 0.0, area_m2 = 0.0, mass_kg = 0.0, wave_speed_m_s = 5000.0;
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();
 };
 
-/// Takes the thinnest regions of the prism in place of a plate that is thicker, for its lowest modes are theirs. Zones
-/// count whole, though later ones may cover them.
-void take_thinner_floor(const mesh::Prism& prism, Plate& plate) {
+/// Takes the regions of one thickness t whose modes are densest, the area A together the largest share of t, in place
+/// of a plate with sparser ones: the lowest modes are theirs. Zones count whole, though later ones may cover them.
+void take_densest_floor(const mesh::Prism& prism, Plate& plate) {
   struct Region {
     double thickness_m, area_m2;
   };
@@ -42,13 +42,14 @@ void take_thinner_floor(const mesh::Prism& prism, Plate& plate) {
     regions.push_back({zone.top - zone.bottom, area(zone.outline)});
     regions.front().area_m2 -= regions.back().area_m2;
   }
-  std::erase_if(regions, [](const Region& r) { return r.area_m2 <= 0.0; });
-  if (regions.empty()) return;
-  const double thinnest = std::ranges::min(regions, {}, &Region::thickness_m).thickness_m;
-  if (thinnest >= plate.thickness_m) return;
-  plate = {.thickness_m = thinnest, .normal = Eigen::Vector3d::UnitZ()};
-  for (const Region& r : regions) {
-    if (r.thickness_m <= 1.01 * thinnest) plate.area_m2 += r.area_m2;
+  for (const Region& region : regions) {
+    double together = 0.0;
+    for (const Region& r : regions) {
+      const bool as_thick = std::abs(r.thickness_m - region.thickness_m) <= 0.01 * region.thickness_m;
+      if (as_thick && r.area_m2 > 0.0) together += r.area_m2;
+    }
+    if (region.thickness_m * plate.area_m2 >= together * plate.thickness_m) continue;
+    plate = {.thickness_m = region.thickness_m, .area_m2 = together, .normal = Eigen::Vector3d::UnitZ()};
   }
 }
 
@@ -60,7 +61,7 @@ Plate plate_like(const setup::Part& part) {
   plate.thickness_m = size.minCoeff(&thin);
   plate.normal = Eigen::Vector3d::Unit(thin);
   plate.area_m2 = size.prod() / plate.thickness_m;
-  if (const auto* shape = std::get_if<setup::PrismShape>(&part.shape)) take_thinner_floor(shape->prism, plate);
+  if (const auto* shape = std::get_if<setup::PrismShape>(&part.shape)) take_densest_floor(shape->prism, plate);
   if (part.imported && part.imported->surface) {
     double area = 0.0;
     const mesh::TriangleSurface& surface = part.imported->surface->surface;

@@ -9,8 +9,8 @@
 namespace thinwall::study {
 
 /// Modes as dense as those of a plate of the part's extent and thickness, 2 c_L t / (√12 A) apart (Cremer, Heckl &
-/// Petersson 2005), each of a quarter of its mass: φ φᵀ / (2 i ω_d (iω − λ)) + conjugate. The plate of a prism with
-/// regions of several thicknesses is that of its thinnest ones. The set-up must have a part.
+/// Petersson 2005), each of a quarter of its mass: φ φᵀ / (2 i ω_d (iω − λ)) + conjugate. The plate of a prism is the
+/// regions of one thickness whose modes are densest. The set-up must have a part.
 [[nodiscard]] milling::RelativeStructure modes_like(const setup::Setup& source);
 
 /// The set-up with models in place of those that are still to be identified: the robot as in its first posture, the

@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+#include <cmath>
 #include <complex>
+#include <utility>
 #include <vector>
 
 namespace thinwall::milling::critical_depths_test {
@@ -33,6 +36,39 @@ TEST(CriticalDepths, AreFoundWhereTheEigenvalueIsReal) {
   EXPECT_EQ(found[0].unstable_change, -2);
   EXPECT_TRUE(search.up_to(0.4).empty());
   EXPECT_NEAR(search.none_below_m(), 0.75 * 0.5, 1e-12);
+}
+
+/// −Z of 80 rows with the eigenvalues 2^−k e^{i(θ − a_k)}, a_k = 0.4 + 0.4 k to k = 6 and 0 from there on: of them 2^−k
+/// is real at θ = a_k, at the depth 2^k.
+GainOnCircle large_gain() {
+  constexpr Eigen::Index rows = 80, turning = 7;
+  Eigen::MatrixXcd V = Eigen::MatrixXcd::Identity(rows, rows);
+  for (Eigen::Index i = 0; i < rows; ++i)
+    for (Eigen::Index j = 0; j < rows; ++j) V(i, j) += 0.02 * std::sin(1.0 + static_cast<double>(3 * i * j + i));
+  Eigen::VectorXcd nu = Eigen::VectorXcd::Zero(rows);
+  for (Eigen::Index k = 0; k < turning; ++k)
+    nu(k) = std::polar(std::pow(0.5, static_cast<double>(k)), -0.4 - 0.4 * static_cast<double>(k));
+  const Eigen::MatrixXcd at_zero = -(V * nu.asDiagonal() * V.inverse());
+  const auto Z = [at_zero](double theta) { return Eigen::MatrixXcd(std::polar(1.0, theta) * at_zero); };
+  return {rows, Z, [Z](double theta) { return Eigen::MatrixXcd(std::complex<double>(0.0, 1.0) * Z(theta)); },
+          stops_between(Eigen::VectorXcd::Constant(1, 0.5))};
+}
+
+TEST(CriticalDepths, OfALargeGainAreFoundByItsLargestEigenvaluesAndDeeperOnesLater) {
+  for (const auto of_large : {CriticalDepths::Eigenvalues::reached, CriticalDepths::Eigenvalues::all}) {
+    CriticalDepths search(large_gain(), of_large);
+    for (const auto& [deepest, count] : {std::pair(1.5, 1U), std::pair(3.0, 2U), std::pair(20.0, 5U)}) {
+      const std::vector<Crossing> found = search.up_to(deepest);
+      ASSERT_EQ(found.size(), count) << deepest;
+      for (std::size_t k = 0; k < count; ++k) {
+        EXPECT_NEAR(found[k].depth_m / std::pow(2.0, static_cast<double>(k)), 1.0, 1e-9);
+        EXPECT_NEAR(found[k].theta_rad, 0.4 + 0.4 * static_cast<double>(k), 1e-9);
+      }
+    }
+    const auto near = search.near_axis(20.0, 1e-3);
+    EXPECT_FALSE(near.empty());
+    for (const auto& at : near) EXPECT_LE(std::abs(at.nu.imag()), 1e-3 * at.nu.real());
+  }
 }
 
 TEST(CriticalDepths, AskForTheGainOnceAStopAndNotBeforeTheyAreSought) {

@@ -231,8 +231,8 @@ TEST(RefinedLine, RefusesWhatIsNoChartOrNoTolerance) {
   Lobes one = chart;
   one.rows.pop_back();
   EXPECT_THROW((void)refined(one, row_in_closed_form, two_teeth(), options, {}), core::InputError);
-  for (const LineOptions bad :
-       {LineOptions{0.0, 10}, LineOptions{1.0, 10}, LineOptions{NAN, 10}, LineOptions{0.02, -1}})
+  for (const LineOptions bad : {LineOptions{0.0, 10}, LineOptions{1.0, 10}, LineOptions{NAN, 10}, LineOptions{0.02, -1},
+                                LineOptions{0.02, 10, 0.0}, LineOptions{0.02, 10, NAN}})
     EXPECT_THROW((void)refined(chart, row_in_closed_form, two_teeth(), options, bad), core::InputError);
 }
 

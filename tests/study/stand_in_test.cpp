@@ -44,12 +44,14 @@ double first_hz(const milling::RelativeStructure& modes) {
   return std::abs(modes.poles(0)) / (2.0 * std::numbers::pi);
 }
 
-TEST(StandIn, ModesOfAPocketedBlockAreThoseOfItsThinnestFloors) {
+TEST(StandIn, ModesOfAPocketedBlockAreThoseOfTheFloorsWithTheDensestModes) {
   EXPECT_NEAR(first_hz(modes_of_block("")) / apart_hz(0.02, 0.1 * 0.06), 1.0, 1e-9);
   EXPECT_NEAR(first_hz(modes_of_block(pocket(5.0, 95.0, 2.0))) / apart_hz(0.002, 0.09 * 0.05), 1.0, 1e-9);
   const std::string two = pocket(5.0, 35.0, 2.0) + pocket(40.0, 60.0, 2.0) + pocket(70.0, 95.0, 8.0);
   EXPECT_NEAR(first_hz(modes_of_block(two)) / apart_hz(0.002, 0.05 * 0.05), 1.0, 1e-9)
       << "floors of one thickness count together";
+  EXPECT_NEAR(first_hz(modes_of_block(pocket(5.0, 6.0, 1.0))) / apart_hz(0.02, 0.1 * 0.06), 1.0, 1e-9)
+      << "the modes of a narrow groove are sparser than those of the block";
 }
 
 TEST(StandIn, ModesOfAPocketMoveAlongTheNormalOfItsFloor) {
