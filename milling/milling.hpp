@@ -3,8 +3,8 @@
 // Internal: centre_path, chip_force, circular_cut, cleared_area, contact_grid, contact_state, critical_depths,
 // crossing, cut_at_speed, cut_cycle, dominant_eigenvalue, earlier_paths, edge, fitted_receptance, found_crossings,
 // harmonic_gain, helical_row, march, march_rule, march_step, modal_tool, near_crossing, parameter_change, path_march,
-// product_rule, record, refined_crossing, removal_check, row_search, sampled_peak, step_coefficients, tooth_discs,
-// turns, uniform_step_map, uniform_step_stability, vanishing_powers.
+// product_rule, record, refined_crossing, removal_check, row_at_limit, row_search, sampled_peak, step_coefficients,
+// tooth_discs, turns, uniform_step_map, uniform_step_stability, vanishing_powers.
 
 #include "core/eigen_alignment.hpp"
 #include "milling/chart/depth_band.hpp"

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "milling/chart/sampled_stability.hpp"
+#include "milling/direct/cut_at_speed.hpp"
 
 namespace thinwall::milling {
 
@@ -36,6 +37,11 @@ void widen_for_near_crossings(const FittedStructure& structure, const MillingPro
 /// The chart with all rows widened, on all threads. Errors as above.
 [[nodiscard]] Lobes widened_for_near_crossings(const FittedStructure& structure, const MillingProcess& process,
                                                const StabilityOptions& options, Lobes lobes);
+
+/// Moves a crossing of the poles of all lines to where it lies by the lines, and adds to its estimate what the lines
+/// leave open, as limiting_depth() of sampled_stability.hpp says; that is 1 if the crossing is lost. Cost: some ten
+/// sums over the harmonics within the lines, and the receptance of ten fits there.
+void follow_to_lines(const FittedStructure& structure, const CutAtSpeed& cut, LobePoint& point);
 
 /// limiting_depth() of sampled_stability.hpp before it is widened: by such rows the line of a chart is refined, which
 /// would else take a nose for what no speed between can mend. Errors and cost as limiting_depth().

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "milling/chart/near_crossing.hpp"
+#include "milling/chart/row_at_limit.hpp"
 #include "milling/direct/critical_depths.hpp"
 #include "milling/direct/cut_at_speed.hpp"
 #include "milling/direct/fitted_receptance.hpp"
@@ -228,74 +229,6 @@ double deviation(const CrossingGrid& grid, const Crossing& crossing, const Fitte
   return changes ? jackknife_deviation(*changes) : 1.0;
 }
 
-/// Moves a crossing of the fit's poles to where it lies by the lines, and adds what the lines leave open.
-void follow_to_lines(const FittedStructure& structure, const CutAtSpeed& cut, LobePoint& point) {
-  constexpr double deviations = 5.0;
-  const CrossingGrid grid(cut, point.depth_m);
-  Crossing by_poles = grid.crossing(point);
-  bool kept = refine(grid.gain(), by_poles);
-  Crossing by_lines = by_poles;
-  if (!structure.all.remainder.H.empty()) kept = kept && refine(grid.gain(structure.all.remainder), by_lines);
-  if (!kept) {
-    point.error_estimate = 1.0;
-    return;
-  }
-  const std::optional<DepthWeights> weights = depth_weights(grid, structure, by_lines);
-  const double change = by_lines.depth_m / by_poles.depth_m;
-  point.depth_m *= change;
-  point.error_estimate +=
-      2.0 * largest_change<2>(grid, by_lines, {&structure.even, &structure.odd}) +
-      std::max(largest_change<1>(grid, by_lines, {&structure.within}), 2.0 * change_by_unseen(structure, weights)) +
-      deviations * deviation(grid, by_lines, structure, weights);
-  if (cut.process.cutter.depends_on_depth()) point.error_estimate += std::abs(change - 1.0);
-}
-
-/// Options of a row that is looked for up to half as deep again as the depth limit, as far as the cutter's edges reach.
-StabilityOptions beyond_limit(const StabilityOptions& options, const Cutter& cutter) {
-  constexpr double looked_at = 1.5;
-  constexpr double searched_beyond = 1.2;  // a search looks at depths a little beyond its limit
-  StabilityOptions beyond = options;
-  const double reached_m = std::min(looked_at * options.depth_limit_m, cutter.envelope.height_m / searched_beyond);
-  beyond.depth_limit_m = std::max(reached_m, options.depth_limit_m);
-  beyond.follow = 1.0;
-  return beyond;
-}
-
-/// By how much of the depth limit a row that is stable up to there may be unstable below it,
-///
-///     1 − min(w (1 − e), w − 2 max |w − w_half|)/limit,
-///
-/// at least 0, with the depth w of the first crossing beyond and its estimate e, and that of the fits to every second
-/// line, each up to half as deep again as the limit; a fit without a crossing has that depth.
-double open_below_limit(const FittedStructure& structure, const CutAtSpeed& cut, const StabilityOptions& options) {
-  const StabilityOptions beyond = beyond_limit(options, cut.process.cutter);
-  const auto row_by = [&](const Fit& fit) {
-    return limiting_depth(fit.poles, cut.process, cut.spindle_speed_rpm, beyond);
-  };
-  const LobeRow row = row_by(structure.all);
-  const double by_all_m = row.limiting_depth_m;
-  double least_m = by_all_m;
-  for (const Fit* half : {&structure.even, &structure.odd})
-    least_m = std::min(least_m, by_all_m - 2.0 * std::abs(by_all_m - row_by(*half).limiting_depth_m));
-  if (!row.crossings.empty()) {
-    LobePoint first = row.crossings.front();
-    follow_to_lines(structure, cut, first);
-    least_m = std::min(least_m, first.depth_m * (1.0 - first.error_estimate));
-  }
-  return std::max(0.0, 1.0 - least_m / options.depth_limit_m);
-}
-
-/// Compares a row that is stable up to the depth limit with what the lines leave open of the first crossing beyond. If
-/// that may lie below the limit, the row is the lines' by as far as it may.
-void compare_at_limit(const FittedStructure& structure, const CutAtSpeed& cut, const StabilityOptions& options,
-                      LobeRow& row) {
-  if (row.status != StabilityStatus::stable_to_depth_limit) return;
-  const double open = open_below_limit(structure, cut, options);
-  if (open <= 0.0) return;
-  row.error_estimate = std::max(row.error_estimate, open);
-  row.status = StabilityStatus::data_limited;  // at best; judged by the estimate
-}
-
 /// True if the poles leave more than a tenth of the lines somewhere, measured by the largest line of twenty-one.
 bool leave_much(const FittedStructure& structure) {
   constexpr std::size_t beside = 10;
@@ -364,6 +297,27 @@ double jackknife_deviation(const Eigen::ArrayXd& changes) {
   if (changes.size() == 0) return 0.0;
   const auto count = static_cast<double>(changes.size());
   return std::sqrt((changes - changes.mean()).square().sum() * (count - 1.0) / count);
+}
+
+void follow_to_lines(const FittedStructure& structure, const CutAtSpeed& cut, LobePoint& point) {
+  constexpr double deviations = 5.0;
+  const CrossingGrid grid(cut, point.depth_m);
+  Crossing by_poles = grid.crossing(point);
+  bool kept = refine(grid.gain(), by_poles);
+  Crossing by_lines = by_poles;
+  if (!structure.all.remainder.H.empty()) kept = kept && refine(grid.gain(structure.all.remainder), by_lines);
+  if (!kept) {
+    point.error_estimate = 1.0;
+    return;
+  }
+  const std::optional<DepthWeights> weights = depth_weights(grid, structure, by_lines);
+  const double change = by_lines.depth_m / by_poles.depth_m;
+  point.depth_m *= change;
+  point.error_estimate +=
+      2.0 * largest_change<2>(grid, by_lines, {&structure.even, &structure.odd}) +
+      std::max(largest_change<1>(grid, by_lines, {&structure.within}), 2.0 * change_by_unseen(structure, weights)) +
+      deviations * deviation(grid, by_lines, structure, weights);
+  if (cut.process.cutter.depends_on_depth()) point.error_estimate += std::abs(change - 1.0);
 }
 
 LobeRow row_by_lines(const FittedStructure& structure, const MillingProcess& process, double spindle_speed_rpm,

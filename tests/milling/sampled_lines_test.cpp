@@ -7,10 +7,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
-#include <random>
 #include <utility>
 
 #include "core/error.hpp"
+#include "flip_lobes.hpp"
 #include "milling/chart/near_crossing.hpp"
 #include "milling/chart/sampled_stability.hpp"
 #include "milling/direct/stability.hpp"
@@ -19,20 +19,14 @@
 namespace thinwall::milling::sampled_lines_test {
 namespace {
 
+using testing::add_noise;
+using testing::Draws;
+using testing::first_only;
+using testing::FlipLobes;
+using testing::lines_of;
+
 /// With THINWALL_SLOW=1 in the environment there are ten times as many structures.
 const int structures = std::getenv("THINWALL_SLOW") != nullptr ? 2000 : 200;
-
-class Draws {
- public:
-  explicit Draws(unsigned seed) : engine_(seed) {}
-  double uniform(double from, double to) { return std::uniform_real_distribution<double>(from, to)(engine_); }
-  double logarithmic(double from, double to) { return std::exp(uniform(std::log(from), std::log(to))); }
-  double normal() { return normal_(engine_); }
-
- private:
-  std::mt19937_64 engine_;
-  std::normal_distribution<double> normal_;
-};
 
 struct Structure {
   RelativeStructure poles;
@@ -54,14 +48,6 @@ Structure random_structure(Draws& draw) {
   }
   result.poles = relative_structure(testing::modal_model(modes), "P");
   return result;
-}
-
-SampledReceptance lines_of(const RelativeStructure& poles, double from_hz, double to_hz, double spacing_hz,
-                           Eigen::Index most = 6000) {
-  const auto count = std::clamp<Eigen::Index>(static_cast<Eigen::Index>((to_hz - from_hz) / spacing_hz) + 1, 14, most);
-  SampledReceptance lines{Eigen::VectorXd::LinSpaced(count, from_hz, to_hz), {}};
-  for (const double hz : lines.frequency_hz) lines.H.push_back(receptance(poles, 2.0 * std::numbers::pi * hz));
-  return lines;
 }
 
 MillingProcess random_cut(Draws& draw) {
@@ -97,13 +83,6 @@ struct Tally {
                 median_estimate());
   }
 };
-
-StabilityOptions first_only() {
-  StabilityOptions options;
-  options.follow = 1.0;
-  options.depth_limit_m = 0.2;
-  return options;
-}
 
 /// Adds the row of lines against that of the poles. Lines are refused where a tooth passing lies beyond them, or where
 /// a few of them show no resonance.
@@ -182,14 +161,6 @@ TEST(SampledLines, NoDepthIsFurtherOffThanClaimedWhereManyModesLieAboveTheLines)
   EXPECT_EQ(tally.beyond, 0);
 }
 
-/// Multiplies the entries of the plane by 1 + noise (x + iy), x and y normal.
-void add_noise(SampledReceptance& lines, double noise, Draws& draw) {
-  for (Eigen::Matrix3cd& H : lines.H) {
-    for (auto& entry : H.topLeftCorner<2, 2>().reshaped())
-      entry *= 1.0 + noise * std::complex<double>(draw.normal(), draw.normal());
-  }
-}
-
 /// Ten fits more than without noise take their time by the number of lines; fewer of them average less of it out.
 TEST(SampledLines, NoiseIsInTheEstimate) {
   constexpr Eigen::Index most_lines = 600;
@@ -212,36 +183,6 @@ TEST(SampledLines, NoiseIsInTheEstimate) {
   EXPECT_LE(tally.beyond, structures > 200 ? 6 : 0);
   EXPECT_LT(tally.worst, 2.0);
 }
-
-/// A light cut of two teeth into a mode at 1000 Hz, with another one far above.
-struct FlipLobes {
-  RelativeStructure poles = relative_structure(testing::modal_model({{1000.0, 0.01, 0.127, Eigen::Vector3d::UnitY()},
-                                                                     {3300.0, 0.02, 0.0465, Eigen::Vector3d::UnitY()}}),
-                                               "P");
-  MillingProcess process;
-
-  FlipLobes() {
-    process.cutter = {2, 0.012};
-    process.coefficients = {8e8, 2.4e8};
-    process.engagement = engagement_of(process.cutter, 0.001, MillingDirection::down);
-  }
-  [[nodiscard]] LobeRow row(double rpm) const { return limiting_depth(poles, process, rpm, first_only()); }
-  /// The speed between two at which the limit changes from one kind of lobe to the other: the nose of a flip lobe.
-  [[nodiscard]] double nose_rpm(double from, double to) const {
-    const Bifurcation kind = row(from).kind;
-    while (to - from > 1e-9 * to) {
-      const double middle = 0.5 * (from + to);
-      (row(middle).kind == kind ? from : to) = middle;
-    }
-    return 0.5 * (from + to);
-  }
-  /// Fits of noisy lines of the poles.
-  [[nodiscard]] FittedStructure fit(double noise, Draws& draw) const {
-    SampledReceptance lines = lines_of(poles, 200.0, 8000.0, 10.0);
-    add_noise(lines, noise, draw);
-    return fitted_structure({lines, {}}, process.frame);
-  }
-};
 
 /// Between each two of these speeds there is one nose.
 constexpr std::pair<double, double> noses[] = {{9080.0, 9140.0}, {9160.0, 9240.0}, {12700.0, 12820.0}};
@@ -329,62 +270,6 @@ TEST(SampledLines, ARowAtTheDepthLimitIsNoAnswerBesideANoseThoughItsEstimateOfTh
   row.error_estimate = 1.5;
   widen_for_near_crossings(lobes.fit(0.003, draw), lobes.process, first_only(), row);
   EXPECT_EQ(row.status, StabilityStatus::data_insufficient);
-}
-
-/// Of eighteen rows of noisy lines, whose depth limits lie some estimates below the first crossing, those that are
-/// called stable.
-int stable_below_crossing(const FlipLobes& lobes, double estimates) {
-  Draws draw(9);
-  int stable = 0;
-  for (int i = 0; i < 6; ++i) {
-    const FittedStructure fit = lobes.fit(0.003, draw);
-    for (const double rpm : {9400.0, 11000.0, 12200.0}) {
-      const LobeRow deep = limiting_depth(fit, lobes.process, rpm, first_only());
-      StabilityOptions options = first_only();
-      options.depth_limit_m = deep.limiting_depth_m * (1.0 - estimates * deep.error_estimate);
-      const LobeRow row = limiting_depth(fit, lobes.process, rpm, options);
-      EXPECT_TRUE(row.at_limit);
-      stable += row.status == StabilityStatus::stable_to_depth_limit ? 1 : 0;
-      // Else the row reaches down to where the crossing may lie.
-      if (row.status != StabilityStatus::stable_to_depth_limit) {
-        EXPECT_LE(options.depth_limit_m * (1.0 - row.error_estimate),
-                  deep.limiting_depth_m * (1.0 - 0.99 * deep.error_estimate));
-      }
-    }
-  }
-  return stable;
-}
-
-// A crossing that lies beyond the depth limit by less than the lines leave open may lie below it, whatever |μ| is
-// there.
-TEST(SampledLines, ARowIsStableToADepthLimitOnlyIfItsFirstCrossingBeyondLiesClearlyDeeper) {
-  const FlipLobes lobes;
-  EXPECT_EQ(stable_below_crossing(lobes, 0.5), 0);
-  EXPECT_EQ(stable_below_crossing(lobes, 2.0), 18);
-}
-
-// The first crossing of a structure that is a tenth more compliant lies at 1/1.1 of the depth.
-TEST(SampledLines, ARowAtTheDepthLimitIsOpenByTwiceTheChangeOfItsFirstCrossingByEverySecondLine) {
-  const FlipLobes lobes;
-  constexpr double rpm = 11000.0, more_compliant = 1.1;
-  FittedStructure fit = fitted_structure({lines_of(lobes.poles, 200.0, 8000.0, 10.0), {}}, lobes.process.frame);
-  RelativeStructure& odd = fit.odd.poles;
-  odd.phi *= more_compliant;
-  odd.R *= more_compliant;
-  const double first_m = lobes.row(rpm).limiting_depth_m;
-  const double reached_m = first_m * (1.0 - 2.0 * (1.0 - 1.0 / more_compliant));
-  StabilityOptions options = first_only();
-  for (const double limit : {0.97, 0.86, 0.75}) {  // of the first crossing; it may lie 0.18 below
-    options.depth_limit_m = limit * first_m;
-    const LobeRow row = limiting_depth(fit, lobes.process, rpm, options);
-    ASSERT_TRUE(row.at_limit);
-    if (options.depth_limit_m < reached_m) {
-      EXPECT_EQ(row.status, StabilityStatus::stable_to_depth_limit);
-    } else {
-      EXPECT_NE(row.status, StabilityStatus::stable_to_depth_limit);
-      EXPECT_NEAR(row.error_estimate, 1.0 - reached_m / options.depth_limit_m, 1e-3) << "the rows' own tolerance";
-    }
-  }
 }
 
 TEST(SampledLines, AFlipWhoseEigenvaluesHaveMetOnTheGridLeavesAllOpen) {

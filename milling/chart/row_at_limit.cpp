@@ -1,0 +1,90 @@
+#include "milling/chart/row_at_limit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "milling/chart/near_crossing.hpp"
+#include "milling/direct/stability.hpp"
+
+namespace thinwall::milling {
+
+namespace {
+
+using Fit = FittedStructure::Fit;
+
+/// Rows at the depth limit are compared up to this many times as deep.
+constexpr double looked_at = 1.5;
+
+/// The process with edges that go on as far as a row beyond the depth limit is looked for; none where they cannot, as
+/// those of a taper that ends in a point.
+std::optional<MillingProcess> with_long_edges(MillingProcess process, double limit_m) {
+  constexpr double searched_beyond = 1.2;  // a search looks at depths a little beyond its limit
+  double& height_m = process.cutter.envelope.height_m;
+  height_m = std::max(height_m, searched_beyond * looked_at * limit_m);
+  if (!validate(process).empty()) return std::nullopt;
+  return process;
+}
+
+/// By how much of the depth limit a row that is stable up to there may be unstable below it,
+///
+///     1 − min(w (1 − e), w − 2 max |w − w_half|)/limit,
+///
+/// with the depth w of the first crossing beyond and its estimate e, and that of the fits to every second line, each up
+/// to half as deep again as the limit; a fit without a crossing has that depth. 1 where a row is not known.
+double open_by_depth(const FittedStructure& structure, const CutAtSpeed& cut, const StabilityOptions& options) {
+  StabilityOptions beyond = options;
+  beyond.depth_limit_m *= looked_at;
+  beyond.follow = 1.0;
+  const auto row_by = [&](const Fit& fit) {
+    return limiting_depth(fit.poles, cut.process, cut.spindle_speed_rpm, beyond);
+  };
+  const auto known = [](const LobeRow& row) {
+    return row.status != StabilityStatus::crossing_missed && std::isfinite(row.limiting_depth_m);
+  };
+  const LobeRow row = row_by(structure.all);
+  if (!known(row)) return 1.0;
+  const double by_all_m = row.limiting_depth_m;
+  double least_m = by_all_m;
+  for (const Fit* half : {&structure.even, &structure.odd}) {
+    const LobeRow by_half = row_by(*half);
+    if (!known(by_half)) return 1.0;
+    least_m = std::min(least_m, by_all_m - 2.0 * std::abs(by_all_m - by_half.limiting_depth_m));
+  }
+  if (!row.crossings.empty()) {
+    LobePoint first = row.crossings.front();
+    follow_to_lines(structure, cut, first);
+    least_m = std::min(least_m, first.depth_m * (1.0 - first.error_estimate));
+  }
+  return 1.0 - least_m / options.depth_limit_m;
+}
+
+/// The same where nothing is cut beyond the depth limit: 1 if |μ| there may exceed 1 by an estimate of it and twice its
+/// larger change by every second line, else 0.
+double open_by_multiplier(const FittedStructure& structure, const CutAtSpeed& cut, const StabilityOptions& options,
+                          double estimate) {
+  const auto modulus = [&](const Fit& fit) {
+    return multiplier_at(fit.poles, cut.process, cut.spindle_speed_rpm, options.depth_limit_m, options).modulus;
+  };
+  const double by_all = modulus(structure.all);
+  for (const Fit* half : {&structure.even, &structure.odd}) {
+    const double change = std::abs(modulus(*half) / by_all - 1.0);
+    if (!(by_all * (1.0 + estimate + 2.0 * change) < 1.0)) return 1.0;
+  }
+  return 0.0;
+}
+
+}  // namespace
+
+void compare_at_limit(const FittedStructure& structure, const CutAtSpeed& cut, const StabilityOptions& options,
+                      LobeRow& row) {
+  const std::optional<MillingProcess> longer = with_long_edges(cut.process, options.depth_limit_m);
+  const double open =
+      longer ? open_by_depth(structure, {cut.structure, *longer, cut.yielding, cut.spindle_speed_rpm}, options)
+             : open_by_multiplier(structure, cut, options, row.error_estimate);
+  row.error_estimate = std::max(row.error_estimate, open);
+  if (row.status == StabilityStatus::stable_to_depth_limit && row.error_estimate > options.error_tolerance)
+    row.status = StabilityStatus::data_limited;  // at best; judged by the estimate
+}
+
+}  // namespace thinwall::milling
