@@ -133,6 +133,16 @@ bool noisy(const Fit& fit) {
   return fit.weighed > no_noise && fit.weighed < no_fit;
 }
 
+/// The lines weighed by the noise about each, with the fit brought to them. Loud lines spoil a fit of equal weights
+/// where others are quiet, so that the noise is told again by the fit to lines that were weighed once.
+Lines weighed_by_noise(const Lines& lines, Fit& found) {
+  const Lines once = weighed_by_scatter(lines, found);
+  found = with_least_squares(once, with_poles(once, found.poles));
+  Lines twice = weighed_by_scatter(lines, found);
+  found = with_poles(twice, found.poles);
+  return twice;
+}
+
 /// The poles of a fit, and as many weakly damped pairs more where it leaves most of the lines: at the largest weighed
 /// rests, no two of them nearer than a quarter of their mean distance over the lines.
 Eigen::VectorXcd with_more(const Fit& fit, const Lines& lines, Index more) {
@@ -175,8 +185,8 @@ PartialFractions vector_fit(const Eigen::VectorXd& hz, const std::vector<Eigen::
   }
   Fit found = improved(lines, poles / lines.omega);
   if (noisy(found)) {
-    const Lines weighed = weighed_by_scatter(lines, found);
-    found = with_least_squares(weighed, with_poles(weighed, found.poles));
+    const Lines weighed = weighed_by_noise(lines, found);
+    found = with_least_squares(weighed, std::move(found));
   }
   return unscaled(found, lines, H.front().rows(), H.front().cols());
 }
@@ -204,8 +214,8 @@ PartialFractions rational_fit(const Eigen::VectorXd& hz, const std::vector<Eigen
   }
   best = improved(lines, best.poles);
   if (noisy(best)) {
-    const Lines weighed = weighed_by_scatter(lines, best);
-    best = with_poles_of_noisy_lines(weighed, with_poles(weighed, best.poles));
+    const Lines weighed = weighed_by_noise(lines, best);
+    best = with_poles_of_noisy_lines(weighed, std::move(best));
   }
   return unscaled(best, lines, H.front().rows(), H.front().cols());
 }

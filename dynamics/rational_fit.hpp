@@ -35,9 +35,9 @@ struct PartialFractions {
 /// whose half width is below a twentieth of the distance between lines, and residues and D follow by linear least
 /// squares. Lines are weighed by 1/√‖H‖, so that neither the peaks nor what lies between them count alone. The poles
 /// are found from the three linear combinations of the entries (real coefficients) that hold most of the matrix. Where
-/// more than 1e-6 and less than a tenth of the lines is left, lines are weighed by the noise about each, and the poles
-/// brought to where the squares are least (variable projection, Kaufman 1975): in noise vector fitting ends beside
-/// that. Throws InputError unless the lines are as said and more than twice as many as the unknowns of an entry,
+/// more than 1e-6 and less than a tenth of the lines is left, lines are weighed by the noise about each, twice, and the
+/// poles brought to where the squares are least (variable projection, Kaufman 1975): in noise vector fitting ends
+/// beside that. Throws InputError unless the lines are as said and more than twice as many as the unknowns of an entry,
 /// NumericalError if an eigen-solution fails, as where an undamped pole lies on a line, Interrupted. Cost: a step
 /// O(lines pairs²).
 [[nodiscard]] PartialFractions vector_fit(const Eigen::VectorXd& hz, const std::vector<Eigen::MatrixXcd>& H,

@@ -133,13 +133,17 @@ Lines telling(const Lines& lines) {
 
 Lines weighed_by_scatter(Lines lines, const Fit& fit) {
   constexpr Index beside = 10;
+  constexpr double far_beyond_noise = 5.0;
   const Eigen::MatrixXcd rest = basis(lines.s, fit.poles) * fit.coefficients - lines.entries;
   const Index count = rest.rows(), inner = count - 2;
-  const Eigen::VectorXd squares =
+  const Eigen::VectorXd differences =
       (rest.topRows(inner) - 2.0 * rest.middleRows(1, inner) + rest.bottomRows(inner)).rowwise().squaredNorm() / 6.0;
+  const Eigen::VectorXd squares = rest.middleRows(1, inner).rowwise().squaredNorm();
   for (Index i = 0; i < count; ++i) {
     const Index from = std::clamp<Index>(i - 1 - beside, 0, inner - 1), to = std::clamp(i + beside, from + 1, inner);
-    lines.weight(i) = 1.0 / std::max(std::sqrt(squares.segment(from, to - from).mean()), least_scatter);
+    const double noise = std::sqrt(differences.segment(from, to - from).mean());
+    const double all = std::sqrt(squares.segment(from, to - from).mean());
+    lines.weight(i) = 1.0 / std::max(all > far_beyond_noise * noise ? all : noise, least_scatter);
   }
   return lines;
 }

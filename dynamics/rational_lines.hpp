@@ -68,7 +68,8 @@ struct Fit {
 ///     σ² = mean of ‖r_{j−1} − 2 r_j + r_{j+1}‖²/6      over the ten lines j on either side,
 ///
 /// where r is what a fit leaves of the lines. Of that the second differences hold the noise, but little of a mode that
-/// the fit lacks.
+/// the fit lacks. Where more than five times as much is left, as of lines that are smooth but slightly wrong (computed
+/// or smoothed ones), σ² is the mean of ‖r_j‖²: by their scatter such lines would have all the weight.
 [[nodiscard]] Lines weighed_by_scatter(Lines lines, const Fit& fit);
 
 }  // namespace thinwall::dynamics::rational
