@@ -200,10 +200,10 @@ PartialFractions rational_fit(const Eigen::VectorXd& hz, const std::vector<Eigen
   // modes, however, neighbouring lines have in common, and then pairs are added until there are as many as there may
   // be.
   constexpr double enough = 1e-9, common_to_modes = 0.3;
-  constexpr int most = 40, steps_of_a_try = 6, tries_in_noise = 4;
+  constexpr int steps_of_a_try = 6, tries_in_noise = 4;
   Fit best, last;
   last.rest = (some.weight.asDiagonal() * some.entries).rowwise().norm();
-  for (int pairs = 1, tries = 0; pairs <= most && (tries < tries_in_noise || last.common > common_to_modes);
+  for (int pairs = 1, tries = 0; pairs <= most_pairs && (tries < tries_in_noise || last.common > common_to_modes);
        pairs += 1 + pairs / 8, ++tries) {
     if (pairs > 1 && 4 * (2 * pairs + 1) >= some.s.size()) break;
     last = fit(some, with_more(last, some, std::max<Index>(1, pairs - last.poles.size())), steps_of_a_try);

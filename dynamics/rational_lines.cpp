@@ -133,7 +133,7 @@ Lines telling(const Lines& lines) {
 
 Lines weighed_by_scatter(Lines lines, const Fit& fit) {
   constexpr Index beside = 10;
-  constexpr double far_beyond_noise = 5.0;
+  constexpr double far_beyond_noise = 5.0;  // modes that noise hides are not
   const Eigen::MatrixXcd rest = basis(lines.s, fit.poles) * fit.coefficients - lines.entries;
   const Index count = rest.rows(), inner = count - 2;
   const Eigen::VectorXd differences =

@@ -17,6 +17,9 @@ struct Lines {
   double omega = 1.0;         ///< last ω, rad/s
 };
 
+/// As many pairs of poles as are ever looked for.
+inline constexpr Eigen::Index most_pairs = 40;
+
 /// True if a pole stands for itself and not for a conjugate pair.
 [[nodiscard]] inline bool is_real(std::complex<double> pole) {
   return pole.imag() == 0.0;

@@ -156,7 +156,9 @@ Stretch most_common_stretch(const Eigen::MatrixXcd& rest) {
 Fit with_hidden_modes(const Lines& lines, Fit found) {
   constexpr double nothing = 2.0, common_to_noise = 4.0, falls = 0.7;
   // Every second line has the same poles (rational_fit()).
-  const auto room = [&] { return 4 * (2 * (found.poles.size() + 1) + 1) < lines.s.size(); };
+  const auto room = [&] {
+    return found.poles.size() < most_pairs && 4 * (2 * (found.poles.size() + 1) + 1) < lines.s.size();
+  };
   for (Stretch left = most_common_stretch(weighed_rest(lines, found)); left.common > nothing && room();) {
     const complex<double> first = lines.s(left.from), last = lines.s(left.from + left.count);
     Eigen::VectorXcd poles(found.poles.size() + 1);

@@ -154,6 +154,17 @@ TEST(RationalFit, AveragesNoise) {
   }
 }
 
+/// The error of a fit at even frequencies, of the receptance there, root mean square.
+double relative_error(const PartialFractions& fit, const Modes& modes, double from_hz, double to_hz, double step_hz) {
+  double squares = 0.0;
+  int lines = 0;
+  for (double at = from_hz; at <= to_hz; at += step_hz, ++lines) {
+    const Eigen::MatrixXcd exact = receptance(modes, at);
+    squares += (value(fit, 2.0 * pi * at) - exact).squaredNorm() / exact.squaredNorm();
+  }
+  return std::sqrt(squares / lines);
+}
+
 /// Modes of which two, at 1801 and 2157 Hz, are a hundredth as high as their neighbours: in the noise of a line they
 /// are not seen, but a chart of stability is 3 % off without them.
 Modes hidden_modes() {
@@ -178,13 +189,7 @@ TEST(RationalFit, HasModesThatTheNoiseOfALineHidesAndNoneOfTheNoise) {
     for (complex<double>& entry : at.reshaped()) entry *= complex<double>(1.0 + normal(random), normal(random));
   }
   const PartialFractions fit = rational_fit(hz, H);
-  double squares = 0.0;
-  int lines = 0;
-  for (double at = 1700.0; at <= 2300.0; at += 1.0, ++lines) {
-    const Eigen::MatrixXcd exact = receptance(modes, at);
-    squares += (value(fit, 2.0 * pi * at) - exact).squaredNorm() / exact.squaredNorm();
-  }
-  const double off = std::sqrt(squares / lines);
+  const double off = relative_error(fit, modes, 1700.0, 2300.0, 1.0);
   std::printf("hidden modes: %zu poles, off by %.1e of a line\n", fit.residues.size(), off);
   // Five modes have ten numbers each (pole and residue), and the 970 lines here four complex entries each: least
   // squares leave √(50/7780) of the noise, and twice as much is not exceeded.
@@ -208,27 +213,9 @@ TEST(RationalFit, LoudLinesDoNotSpoilQuietOnes) {
       entry *= complex<double>(1.0 + noise * normal(random), noise * normal(random));
   }
   const PartialFractions fit = rational_fit(hz, H);
-  double squares = 0.0;
-  int lines = 0;
-  for (double at = 700.0; at <= 3700.0; at += 5.0, ++lines) {
-    const Eigen::MatrixXcd exact = receptance(modes, at);
-    squares += (value(fit, 2.0 * pi * at) - exact).squaredNorm() / exact.squaredNorm();
-  }
-  const double off = std::sqrt(squares / lines);
+  const double off = relative_error(fit, modes, 700.0, 3700.0, 5.0);
   std::printf("loud lines: %zu poles, off by %.1e of a quiet line\n", fit.residues.size(), off);
   EXPECT_LT(off, quiet);
-}
-
-/// The error of a fit to noisy lines above 700 Hz, relative, root mean square.
-double error_above(const Modes& modes, const Eigen::VectorXd& hz, const std::vector<Eigen::MatrixXcd>& H) {
-  const PartialFractions fit = rational_fit(hz, H);
-  double squares = 0.0;
-  int lines = 0;
-  for (double at = 700.0; at <= 2990.0; at += 5.0, ++lines) {
-    const Eigen::MatrixXcd exact = receptance(modes, at);
-    squares += (value(fit, 2.0 * pi * at) - exact).squaredNorm() / exact.squaredNorm();
-  }
-  return std::sqrt(squares / lines);
 }
 
 // Computed or smoothed lines that replace those below what a hammer excites have no noise, but are 2 % too large. By
@@ -246,8 +233,9 @@ TEST(RationalFit, SmoothLinesThatAreSlightlyOffDoNotSpoilOthers) {
     for (complex<double>& entry : H[static_cast<std::size_t>(i)].reshaped())
       entry *= i < smooth ? 1.02 : complex<double>(1.0 + normal(random), normal(random));
   }
-  const double with = error_above(modes, hz, H);
-  const double without = error_above(modes, hz.tail(hz.size() - smooth), {H.begin() + smooth, H.end()});
+  const double with = relative_error(rational_fit(hz, H), modes, 700.0, 2990.0, 5.0);
+  const PartialFractions others = rational_fit(hz.tail(hz.size() - smooth), {H.begin() + smooth, H.end()});
+  const double without = relative_error(others, modes, 700.0, 2990.0, 5.0);
   std::printf("smooth lines that are off: error %.1e, without them %.1e\n", with, without);
   EXPECT_LT(with, 3.0 * without);
 }
