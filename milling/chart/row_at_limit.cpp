@@ -31,7 +31,9 @@ std::optional<MillingProcess> with_long_edges(MillingProcess process, double lim
 ///     1 − min(w (1 − e), w − 2 max |w − w_half|)/limit,
 ///
 /// with the depth w of the first crossing beyond and its estimate e, and that of the fits to every second line, each up
-/// to half as deep again as the limit; a fit without a crossing has that depth. 1 where a row is not known.
+/// to half as deep again as the limit; a fit without a crossing has that depth. 1 where a row is not known. Beside a
+/// nose, where two eigenvalues nearly meet, e is of first order and may exceed 1 though all fits agree: without noise,
+/// the rows by every second line tell then, and widen_for_near_crossings() what else there is.
 double open_by_depth(const FittedStructure& structure, const CutAtSpeed& cut, const StabilityOptions& options) {
   StabilityOptions beyond = options;
   beyond.depth_limit_m *= looked_at;
@@ -54,24 +56,29 @@ double open_by_depth(const FittedStructure& structure, const CutAtSpeed& cut, co
   if (!row.crossings.empty()) {
     LobePoint first = row.crossings.front();
     follow_to_lines(structure, cut, first);
-    least_m = std::min(least_m, first.depth_m * (1.0 - first.error_estimate));
+    const bool first_order_fails = first.error_estimate >= 1.0 && structure.without.empty();
+    if (!first_order_fails) least_m = std::min(least_m, first.depth_m * (1.0 - first.error_estimate));
   }
   return 1.0 - least_m / options.depth_limit_m;
 }
 
-/// The same where nothing is cut beyond the depth limit: 1 if |μ| there may exceed 1 by an estimate of it and twice its
-/// larger change by every second line, else 0.
+/// The same by what is known at the depth limit alone: 1 if |μ| there may exceed 1 by an estimate of it, twice its
+/// larger change by every second line, that by the lines within, and five standard deviations (jackknife), else 0.
 double open_by_multiplier(const FittedStructure& structure, const CutAtSpeed& cut, const StabilityOptions& options,
                           double estimate) {
+  constexpr double deviations = 5.0;
   const auto modulus = [&](const Fit& fit) {
     return multiplier_at(fit.poles, cut.process, cut.spindle_speed_rpm, options.depth_limit_m, options).modulus;
   };
   const double by_all = modulus(structure.all);
-  for (const Fit* half : {&structure.even, &structure.odd}) {
-    const double change = std::abs(modulus(*half) / by_all - 1.0);
-    if (!(by_all * (1.0 + estimate + 2.0 * change) < 1.0)) return 1.0;
-  }
-  return 0.0;
+  const auto change = [&](const Fit& fit) { return modulus(fit) / by_all - 1.0; };
+  const double by_half = std::max(std::abs(change(structure.even)), std::abs(change(structure.odd)));
+  Eigen::ArrayXd without(static_cast<Eigen::Index>(structure.without.size()));
+  for (std::size_t i = 0; i < structure.without.size(); ++i)
+    without(static_cast<Eigen::Index>(i)) = change(structure.without[i]);
+  const double open =
+      estimate + 2.0 * by_half + std::abs(change(structure.within)) + deviations * jackknife_deviation(without);
+  return by_all * (1.0 + open) < 1.0 ? 0.0 : 1.0;
 }
 
 }  // namespace

@@ -61,16 +61,16 @@ struct FittedStructure {
 /// first crossing up to half as deep again, of edges that go on above their height if need be: if that lies at w with
 /// the estimate e, and w (1 − e) is below the limit, the estimate is at least what it is below by, and the row
 /// `data_limited` or `data_insufficient` if that misses the tolerance. So it is by what w − 2 |w − w_h| is below the
-/// limit, w_h being the depth by every second line alone, and by all where one of these rows is not known. Edges that
-/// cannot go on, as those of a taper that ends in a point, leave all open if |μ| at the limit may exceed 1 by its
-/// estimate and twice its larger change by every second line. Where the remainder is more than a tenth of the lines, as
-/// of a fit that missed modes, CriticalDepths looks for a crossing of poles and remainder below the row's limit; one
-/// that is found is the limit, with an estimate of 1. Any cutter will do. Throws InputError for a bad
-/// process, option or speed, and as require_range(); NumericalError if an eigen-solution fails. Cost: a row from poles,
-/// and for each crossing some ten sums over the harmonics within the lines, each O(harmonics contacts²), of which all
-/// but the first few fall away where nothing remains of the lines, and the receptance of ten fits at the harmonics;
-/// once a row that of widen_for_near_crossings(), which searches the depths up to the limit again; for a row at the
-/// limit three from poles.
+/// limit, w_h being the depth by every second line alone, and by all where one of these rows is not known. An e of 1 or
+/// more without noise, of first order beside a nose, does not count. Edges that cannot go on, as those of a taper that
+/// ends in a point, leave all open if |μ| at the limit may exceed 1 by its estimate and its changes by the fits. Where
+/// the remainder is more than a tenth of the lines, as of a fit that missed modes, CriticalDepths looks for a crossing
+/// of poles and remainder below the row's limit; one that is found is the limit, with an estimate of 1. Any cutter will
+/// do. Throws InputError for a bad process, option or speed, and as require_range(); NumericalError if an
+/// eigen-solution fails. Cost: a row from poles, and for each crossing some ten sums over the harmonics within the
+/// lines, each O(harmonics contacts²), of which all but the first few fall away where nothing remains of the lines, and
+/// the receptance of ten fits at the harmonics; once a row that of widen_for_near_crossings(), which searches the
+/// depths up to the limit again; for a row at the limit three from poles.
 [[nodiscard]] LobeRow limiting_depth(const FittedStructure& structure, const MillingProcess& process,
                                      double spindle_speed_rpm, const StabilityOptions& options);
 
