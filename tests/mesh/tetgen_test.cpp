@@ -162,10 +162,10 @@ TEST(ConfinedProcess, AHangEndsAtItsTimeLimit) {
 TEST(ConfinedProcess, ItsLimitIsOneOfProcessorTime) {
   const Bytes done = run_confined(
       []() -> Bytes {
-        usleep(400'000);
+        usleep(1'000'000);
         return {'1'};
       },
-      0.2, 2e8);
+      0.8, 2e8);
   EXPECT_EQ(done, Bytes{'1'}) << "the process waited longer than its limit, but did not compute";
   const std::string text = failure(
       []() -> Bytes {
