@@ -23,6 +23,7 @@
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/memory.hpp"
+#include "core/units.hpp"
 #include "mesh/curve_order.hpp"
 
 namespace thinwall::mesh {
@@ -217,7 +218,8 @@ std::vector<char> run_confined(const std::function<std::vector<char>()>& work, d
   while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
   }
   if (outcome.stopped) std::rethrow_exception(outcome.stopped);
-  if (outcome.timed_out) throw core::NumericalError("it did not finish within " + std::to_string(time_limit_s) + " s");
+  if (outcome.timed_out)
+    throw core::NumericalError("it did not finish within " + core::number_text(time_limit_s, 3) + " s");
   if (!WIFEXITED(status) || WEXITSTATUS(status) != wrote_all) throw core::NumericalError(cause(status));
   return std::move(outcome.bytes);
 }

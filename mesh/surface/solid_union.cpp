@@ -1,14 +1,17 @@
 #include "mesh/surface/solid_union.hpp"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Polygon_mesh_processing/intersection.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <list>
 #include <map>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
@@ -49,31 +52,50 @@ TriangleSoup soup_of(const Mesh& mesh) {
   return result;
 }
 
-/// Adds one of the bodies to the sum and takes it off the list. False if none can be added.
-bool adds_one(Mesh& sum, std::list<Mesh>& left) {
-  for (auto body = left.begin(); body != left.end(); ++body) {
-    if (!processing::do_intersect(sum, *body)) continue;
-    Mesh a = sum, b = *body, both;
+/// A body or the union of some, with the box around it.
+struct Body {
+  explicit Body(Mesh of) : mesh(std::move(of)), box(processing::bbox(mesh)) {}
+  Mesh mesh;
+  CGAL::Bbox_3 box;
+};
+
+/// The union of a body with the first of the others that has one with it, which is taken off their list. Empty if there
+/// is none.
+std::optional<Body> united_with_one(const Body& body, std::list<Body>& others) {
+  for (auto other = others.begin(); other != others.end(); ++other) {
+    if (!CGAL::do_overlap(body.box, other->box) || !processing::do_intersect(body.mesh, other->mesh)) continue;
+    Mesh a = body.mesh, b = other->mesh, both;
     if (!processing::corefine_and_compute_union(a, b, both, CGAL::parameters::throw_on_self_intersection(true)))
       continue;
-    sum = both;
-    left.erase(body);
-    return true;
+    both.collect_garbage();
+    others.erase(other);
+    return Body(std::move(both));
   }
-  return false;
+  return std::nullopt;
+}
+
+/// Unites the bodies in pairs. A sum to which each is added by itself would be cut anew for every body.
+std::list<Body> united_in_pairs(std::list<Body> bodies) {
+  std::list<Body> result;
+  while (!bodies.empty()) {
+    const Body body = std::move(bodies.front());
+    bodies.pop_front();
+    std::optional<Body> both = united_with_one(body, bodies);
+    result.push_back(both ? std::move(*both) : body);
+  }
+  return result;
 }
 
 /// Points and triangles as bytes, behind the number of points; empty where there is no union.
 std::vector<char> union_in_bytes(const std::vector<TriangleSoup>& bodies) {
-  std::list<Mesh> left;
-  for (const TriangleSoup& body : bodies) left.push_back(mesh_of(body));
-  Mesh sum = left.front();
-  left.pop_front();
-  while (!left.empty()) {
-    if (!adds_one(sum, left)) return {};
+  std::list<Body> left;
+  for (const TriangleSoup& body : bodies) left.emplace_back(mesh_of(body));
+  while (left.size() > 1) {
+    const std::size_t before = left.size();
+    left = united_in_pairs(std::move(left));
+    if (left.size() == before) return {};
   }
-  sum.collect_garbage();
-  const TriangleSoup result = soup_of(sum);
+  const TriangleSoup result = soup_of(left.front().mesh);
   const std::size_t count = result.points.size();
   const std::size_t of_points = count * sizeof result.points[0];
   const std::size_t of_triangles = result.triangles.size() * sizeof result.triangles[0];
@@ -84,16 +106,8 @@ std::vector<char> union_in_bytes(const std::vector<TriangleSoup>& bodies) {
   return bytes;
 }
 
-}  // namespace
-
-std::optional<TriangleSoup> united(const std::vector<TriangleSoup>& bodies, const ProcessLimits& limits) {
-  if (bodies.empty()) return std::nullopt;
-  std::vector<char> bytes;
-  try {
-    bytes = run_confined([&] { return union_in_bytes(bodies); }, limits.time_s, limits.memory_bytes);
-  } catch (const core::NumericalError&) {
-    core::check_interrupt();
-  }
+/// The soup of union_in_bytes(); empty where there is no union.
+std::optional<TriangleSoup> soup_from(const std::vector<char>& bytes) {
   std::size_t count = 0;
   if (bytes.size() <= sizeof count) return std::nullopt;
   std::memcpy(&count, bytes.data(), sizeof count);
@@ -104,6 +118,21 @@ std::optional<TriangleSoup> united(const std::vector<TriangleSoup>& bodies, cons
   result.triangles.resize(of_triangles / sizeof(std::array<int, 3>));
   std::memcpy(static_cast<void*>(result.points.data()), bytes.data() + sizeof count, of_points);
   std::memcpy(result.triangles.data(), bytes.data() + sizeof count + of_points, of_triangles);
+  return result;
+}
+
+}  // namespace
+
+SolidUnion united(const std::vector<TriangleSoup>& bodies, const ProcessLimits& limits) {
+  if (bodies.empty()) return {};
+  SolidUnion result;
+  try {
+    const auto bytes = run_confined([&] { return union_in_bytes(bodies); }, limits.time_s, limits.memory_bytes);
+    result.surface = soup_from(bytes);
+  } catch (const core::NumericalError& error) {
+    core::check_interrupt();
+    result.failure = error.what();
+  }
   return result;
 }
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <optional>
 #include <span>
 
 #include "core/error.hpp"
@@ -41,6 +40,7 @@ void validate(const SurfaceRepairOptions& options) {
   require_within(options.largest_hole_edges, 0, 100, "largest_hole_edges");
   require_within(options.largest_movement, 0.0, 0.1, "largest_movement");
   require_within(options.thinnest_wall_m, 0.0, largest, "thinnest_wall_m");
+  require_within(options.longest_union_s, 0.0, largest, "longest_union_s");
   require_within(options.far_diagonals, 1.0, farthest_diagonals, "far_diagonals");
 }
 
@@ -59,12 +59,20 @@ void refuse_if_any(std::vector<SurfaceFinding> faults, const Eigen::Vector3d& mo
 struct Repair {
   TriangleSoup soup;
   SurfaceRepair result;
+  SurfaceFinding not_united;  // the bodies whose union failed
 
   /// Records a repair, at its place in the frame of the file.
   void note(SurfaceFinding finding) {
     if (finding.count == 0) return;
     finding.first_m -= result.moved_by;
     result.mended.push_back(std::move(finding));
+  }
+
+  /// Throws InputError as above. Bodies that were not united are a cause of faults, and no fault where there are none.
+  void refuse_if_any(std::vector<SurfaceFinding> faults) const {
+    if (std::ranges::all_of(faults, [](const SurfaceFinding& fault) { return fault.count == 0; })) return;
+    faults.insert(faults.begin(), not_united);
+    mesh::refuse_if_any(std::move(faults), result.moved_by);
   }
 };
 
@@ -160,24 +168,30 @@ SurfaceFinding crowded_edges(const TriangleSoup& soup) {
 constexpr double sliver_of_union = 1e-7;
 
 /// Replaces several bodies by their union if all of them touch or overlap. A soup that is no set of closed bodies, or
-/// whose bodies lie apart, stays as it is.
-void unite_bodies(Repair& repair, const ProcessLimits& limits) {
+/// whose bodies lie apart, stays as it is, and so does one whose union takes too long.
+void unite_bodies(Repair& repair, const SurfaceRepairOptions& options) {
   const std::vector<TriangleSoup> bodies = separate_bodies(repair.soup);
   if (bodies.size() < 2) return;
-  const std::optional<TriangleSoup> all = united(bodies, limits);
-  if (!all) return;
-  const SoupBounds block = bounds(*all);
-  repair.soup = merged_points(*all, sliver_of_union * (block.largest - block.least).norm()).soup;
+  const SolidUnion all = united(bodies, {options.longest_union_s, options.limits.memory_bytes});
+  const int count = static_cast<int>(bodies.size());
+  const Eigen::Vector3d& first = bodies.front().points.front();
+  if (!all.failure.empty()) {
+    repair.not_united = {.what = "bodies whose union could not be had: " + all.failure,
+                         .count = count,
+                         .first_m = first,
+                         .remedy = "join them before the export"};
+  }
+  if (!all.surface) return;
+  const SoupBounds block = bounds(*all.surface);
+  repair.soup = merged_points(*all.surface, sliver_of_union * (block.largest - block.least).norm()).soup;
   (void)drop_collapsed(repair.soup);
-  repair.note({.what = "bodies that touch or overlap and are treated as one",
-               .count = static_cast<int>(bodies.size()),
-               .first_m = bodies.front().points.front()});
+  repair.note({.what = "bodies that touch or overlap and are treated as one", .count = count, .first_m = first});
 }
 
 /// Repairs the facets, so that every edge has two triangles; throws InputError with the faults if that fails.
 void mend_facets(Repair& repair, const SurfaceRepairOptions& options) {
   repair.note(drop_collapsed(repair.soup));
-  unite_bodies(repair, options.limits);
+  unite_bodies(repair, options);
   auto [doubled, opposite] = drop_duplicates(repair.soup);
   const SurfaceFinding walls = coincident_walls(repair.soup, opposite);
   repair.note(doubled);
@@ -187,7 +201,7 @@ void mend_facets(Repair& repair, const SurfaceRepairOptions& options) {
   if (options.largest_hole_edges > 0) repair.note(fill_holes(repair.soup, options.largest_hole_edges, options.limits));
   if (repair.soup.triangles.empty())
     throw core::InputError("all facets of the surface lie on lines; give a closed surface");
-  refuse_if_any({walls, crowded_edges(repair.soup), open_edges(repair.soup), left}, repair.result.moved_by);
+  repair.refuse_if_any({walls, crowded_edges(repair.soup), open_edges(repair.soup), left});
 }
 
 /// The shells other than the largest: cavities if their first point lies within it, other bodies if not.
@@ -237,15 +251,15 @@ SurfaceFinding crossings(const TriangleSurface& surface, const ProcessLimits& li
 
 /// Turns all triangles outwards and checks that one closed body without crossings is left.
 void turn_outwards(Repair& repair, const SurfaceRepairOptions& options) {
-  refuse_if_any({touching_vertices(repair.soup)}, repair.result.moved_by);
+  repair.refuse_if_any({touching_vertices(repair.soup)});
   const Orientation orientation = orient(repair.soup);
-  refuse_if_any({orientation.one_sided}, repair.result.moved_by);
+  repair.refuse_if_any({orientation.one_sided});
   repair.note(orientation.turned);
   auto faults = other_shells(repair.soup, orientation);
   const MergedPoints compact = merged_points(repair.soup);  // without points that facets no longer use
   repair.result.surface = {compact.soup.points, compact.soup.triangles};
   faults.push_back(crossings(repair.result.surface, options.limits));
-  refuse_if_any(faults, repair.result.moved_by);
+  repair.refuse_if_any(faults);
 }
 
 void require_thick_enough(SurfaceRepair& result, double thinnest_m) {

@@ -21,6 +21,7 @@ struct SurfaceRepairOptions {
   double thinnest_wall_m = 0.0;  ///< thinner walls are refused (mesh::thin_walls()); 0: not measured
   double far_diagonals = 100.0;  ///< a part further from the origin, in its diagonals, is moved there, 1 to 1e8
   ProcessLimits limits;          ///< of the search for crossings and of filling holes, each
+  double longest_union_s = 20.0;  ///< processor time in which bodies are united; beyond it they stay apart
 };
 
 /// A surface that mesh::require_closed() accepts, and the repairs that it needed.
@@ -40,7 +41,8 @@ struct SurfaceRepair {
 /// places in mm of everything found at that stage, for open edges, edges of more than two triangles, walls without
 /// thickness (coincident opposite facets), points in which parts touch, a one-sided surface, several bodies, cavities,
 /// triangles that cross or cover each other, walls below the tolerance, a movement above the bound, coordinates too far
-/// away for double precision, a diagonal beyond 1000 km or below 1 nm, and options out of range. Throws NumericalError
+/// away for double precision, a diagonal beyond 1000 km or below 1 nm, and options out of range. If the union of bodies
+/// failed, the refusal says why. Throws NumericalError
 /// if a search does not end within the limits. Cost O(n log n).
 [[nodiscard]] SurfaceRepair repaired_surface(const TriangleSoup& soup, const SurfaceRepairOptions& options = {});
 

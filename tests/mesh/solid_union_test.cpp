@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "mesh/surface/separate_bodies.hpp"
 #include "mesh/surface/surface_repair.hpp"
 #include "solid_shapes.hpp"
@@ -80,7 +81,48 @@ TEST(SolidUnion, IsNotMadeOfBodiesThatLieApartOrShareAnEdgeOnly) {
   const TriangleSurface cube = block({0.1, 0.1, 0.1}, 0.1);
   for (const Eigen::Vector3d& by : {Eigen::Vector3d(0.3, 0.0, 0.0), Eigen::Vector3d(0.1, 0.1, 0.0)}) {
     const std::vector<TriangleSoup> bodies{soup(cube), moved(cube, by)};
-    EXPECT_FALSE(united(bodies, {})) << by.transpose();
+    const SolidUnion none = united(bodies, {});
+    EXPECT_FALSE(none.surface) << by.transpose();
+    EXPECT_EQ(none.failure, "") << by.transpose();
+  }
+}
+
+/// Layers of bars that cross those of the layers above and below.
+TriangleSoup lattice(int layers, int bars) {
+  TriangleSoup all;
+  for (int layer = 0; layer < layers; ++layer) {
+    for (int bar = 0; bar < bars; ++bar) {
+      const double across = 0.01 + 0.02 * bar, height = 0.004 * layer, length = 0.02 * bars;
+      const bool along_x = layer % 2 == 0;
+      const Eigen::Vector3d size =
+          along_x ? Eigen::Vector3d(length, 0.005, 0.005) : Eigen::Vector3d(0.005, length, 0.005);
+      const Eigen::Vector3d by = along_x ? Eigen::Vector3d(0.0, across, height) : Eigen::Vector3d(across, 0.0, height);
+      all = together(all, moved(block(size, 1.0), by));
+    }
+  }
+  return all;
+}
+
+TEST(SolidUnion, OfALatticeOfBarsCountsItsCrossingsOnce) {
+  const int layers = 6, bars = 5;
+  const double of_bars = layers * bars * 0.1 * 0.005 * 0.005;
+  const double of_crossings = (layers - 1) * bars * bars * 0.005 * 0.005 * 0.001;
+  expect_united(lattice(layers, bars), layers * bars, of_bars - of_crossings);
+}
+
+TEST(SolidUnion, ThatTakesTooLongIsNamedInTheRefusal) {
+  const TriangleSurface cube = block({0.1, 0.1, 0.1}, 0.1);
+  SurfaceRepairOptions options;
+  options.longest_union_s = 0.0;
+  try {
+    (void)repaired_surface(mesh::together(cube, cube, {0.04, 0.03, 0.02}), options);
+    ADD_FAILURE() << "the cubes were accepted";
+  } catch (const core::InputError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("2 bodies whose union could not be had: it did not finish within 0 s"), std::string::npos)
+        << text;
+    EXPECT_NE(text.find("join them before the export"), std::string::npos) << text;
+    EXPECT_NE(text.find("triangles that cross"), std::string::npos) << text;
   }
 }
 
