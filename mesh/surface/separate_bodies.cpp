@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -57,13 +58,15 @@ std::vector<Side> sides_of(const TriangleSoup& soup, std::span<const EdgeUse> us
   return sides;
 }
 
-/// The pairs of triangles between which a body lies at the edge; empty if the bodies overlap there or face each other.
+/// True if as many triangles use the edge forwards as backwards, as those of closed bodies do.
+bool is_balanced(std::span<const EdgeUse> uses) {
+  return 2 * std::ranges::count(uses, true, &EdgeUse::is_forward) == std::ssize(uses);
+}
+
+/// The pairs of triangles between which a body lies at a balanced edge; empty if the bodies overlap there or face each
+/// other, so that angles do not tell which triangles belong together.
 std::vector<Pair> wedges(const TriangleSoup& soup, std::span<const EdgeUse> uses) {
-  if (uses.size() % 2 != 0) return {};
-  if (uses.size() == 2) {
-    return uses[0].is_forward == uses[1].is_forward ? std::vector<Pair>{}
-                                                    : std::vector<Pair>{{uses[0].triangle, uses[1].triangle}};
-  }
+  if (uses.size() == 2) return {{uses[0].triangle, uses[1].triangle}};
   std::vector<Side> sides = sides_of(soup, uses);
   if (!sides.front().begins) std::rotate(sides.begin(), sides.begin() + 1, sides.end());
   std::vector<Pair> pairs;
@@ -74,14 +77,14 @@ std::vector<Pair> wedges(const TriangleSoup& soup, std::span<const EdgeUse> uses
   return pairs;
 }
 
-/// The wedges at all edges; none if the soup is not one of separate bodies.
+/// The wedges at all edges; none if the soup is not one of closed bodies.
 std::optional<std::vector<Pair>> all_wedges(const TriangleSoup& soup) {
   std::vector<Pair> all;
   bool is_sound = true;
   for_each_edge(sorted_edges(soup.triangles), [&](std::span<const EdgeUse> uses) {
+    is_sound = is_sound && is_balanced(uses);
     if (!is_sound) return;
     const std::vector<Pair> pairs = wedges(soup, uses);
-    is_sound = !pairs.empty();
     all.insert(all.end(), pairs.begin(), pairs.end());
   });
   return is_sound ? std::optional(std::move(all)) : std::nullopt;
@@ -108,8 +111,9 @@ TriangleSoup with_own_points(const TriangleSoup& soup, const std::vector<std::ar
 
 bool is_a_body(const TriangleSoup& soup) {
   bool is_manifold = true;
-  for_each_edge(sorted_edges(soup.triangles),
-                [&](std::span<const EdgeUse> uses) { is_manifold = is_manifold && uses.size() == 2; });
+  for_each_edge(sorted_edges(soup.triangles), [&](std::span<const EdgeUse> uses) {
+    is_manifold = is_manifold && uses.size() == 2 && is_balanced(uses);
+  });
   return is_manifold && volume(TriangleSurface{soup.points, soup.triangles}) > 0.0;
 }
 

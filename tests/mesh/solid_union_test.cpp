@@ -59,6 +59,11 @@ TEST(SolidUnion, OfOverlappingCubesCountsTheCommonVolumeOnce) {
   expect_united(mesh::together(cube, cube, {0.04, 0.03, 0.02}), 2, 2e-3 - 0.06 * 0.07 * 0.08);
 }
 
+TEST(SolidUnion, OfPlatesThatOverlapAlongACommonEdgeIsTheirBracket) {
+  const TriangleSurface plate = block({0.1, 0.05, 0.005}, 1.0), wall = block({0.005, 0.05, 0.06}, 1.0);
+  expect_united(mesh::together(plate, wall, {0.0, 0.0, 0.0}), 2, 0.05 * (0.1 * 0.005 + 0.005 * 0.055));
+}
+
 TEST(SolidUnion, OfAPocketAndTheBlockThatFillsItIsTheWholeBlock) {
   const LPocket pocket;
   const Eigen::Vector3d open(pocket.length_m - pocket.wall_m, pocket.width_m - pocket.wall_m,
