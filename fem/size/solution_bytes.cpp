@@ -8,6 +8,7 @@
 #include <numeric>
 #include <vector>
 
+#include "linalg/external_factor.hpp"
 #include "linalg/factor_bytes.hpp"
 
 namespace thinwall::fem {
@@ -90,7 +91,8 @@ double bytes_of(const linalg::SparseMatrix& A) {
 double solution_bytes(const mesh::TetMesh& mesh, int order) {
   const linalg::MatrixGraph graph = element_graph(mesh, order);
   const double of_K = bytes_of_entry * entry_count(graph), of_M = of_K / 3.0;  // the axes have no mass in common
-  return of_K + of_M + linalg::factor_bytes(graph);
+  const double of_sum = linalg::has_factoriser() ? of_K : 0.0;
+  return of_K + of_M + of_sum + linalg::factor_bytes(graph);
 }
 
 }  // namespace thinwall::fem

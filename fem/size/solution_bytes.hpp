@@ -18,8 +18,10 @@ namespace thinwall::fem {
 [[nodiscard]] double bytes_of(const linalg::SparseMatrix& A);
 
 /// The memory that a solution at order p takes at its worst, when K − σM is factorised: K, M, which has a third of
-/// its entries because it does not couple the axes, and linalg::factor_bytes() of the element_graph().
-/// Supports, which take rows away, are not counted. Cost and errors as there.
+/// its entries because it does not couple the axes, and linalg::factor_bytes() of the element_graph(). K − σM is a
+/// matrix of its own, with the entries of K, only while another engine is set (linalg::has_factoriser()), as on ranks:
+/// a factorisation in this process reads the sum from K and M, because M has no entry outside K. Supports, which take
+/// rows away, are not counted. Cost and errors as there.
 [[nodiscard]] double solution_bytes(const mesh::TetMesh& mesh, int order);
 
 }  // namespace thinwall::fem

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/memory.hpp"
 #include "fem/to_tolerance.hpp"
+#include "linalg/external_factor.hpp"
 #include "linalg/factor_bytes.hpp"
 #include "mesh/lagrange_nodes.hpp"
 #include "tests/mesh/kuhn_box.hpp"
@@ -43,6 +44,16 @@ TEST(SolutionBytes, AreThoseOfTheMatricesAndTheFactor) {
       EXPECT_NEAR(by_graph, factor, 0.2 * factor) << shape.name << " at order " << order;
     }
   }
+}
+
+TEST(SolutionBytes, CountTheSumThatAnotherEngineIsHanded) {
+  const mesh::TetMesh mesh = mesh::kuhn_box({0.3, 0.2, 0.15}, {2, 3, 1});
+  const Model model = supported_model(mesh, 2, steel, {});
+  const double in_this_process = solution_bytes(mesh, 2);
+  const linalg::Factoriser before = linalg::set_factoriser([](const auto&, const auto&) { return nullptr; });
+  const double with_engine = solution_bytes(mesh, 2);
+  (void)linalg::set_factoriser(before);
+  EXPECT_NEAR(with_engine - in_this_process, bytes_of(model.K), 1e-9 * bytes_of(model.K));
 }
 
 TEST(SolutionBytes, OfAGraphHaveARowForEachDegreeOfFreedom) {
