@@ -105,44 +105,108 @@ MatrixXd condensed_inside(CondensedFactor& factor, const SparseMatrix& A, const 
   return result;
 }
 
-/// The fixed-interface modes that are wanted of a domain with so large a part of all rows.
-Eigenpairs fixed_modes(const SparseMatrix& A, const SparseMatrix& M, const Domain& domain, double part, double sigma,
-                       const SubstructureOptions& options) {
-  const auto inner = static_cast<Index>(domain.inner.size());
-  const double kappa_max = domain_cut_off * domain_cut_off * (options.lambda_max - sigma);
-  const Index count = std::min<Index>(static_cast<Index>(domain_cut_off * options.count * part) + 4, inner);
-  if (A.rows() <= dense_up_to || 2 * count >= inner) {
-    MatrixXd W = MatrixXd::Zero(A.rows(), static_cast<Index>(domain.border.size()));
-    for (Index j = 0; j < W.cols(); ++j) W(domain.border[static_cast<std::size_t>(j)], j) = 1.0;
-    Eigenpairs all = dense_eigenpairs(A, M, W);
-    const Index kept = options.lambda_max > 0.0 ? (all.lambda.array() <= kappa_max).count() : count;
-    return {all.lambda.head(kept), all.Phi.leftCols(kept), all.inverse_residual.head(kept), all.status};
+/// The first `kept` of some modes.
+Eigenpairs leading(const Eigenpairs& modes, Index kept) {
+  return {modes.lambda.head(kept), modes.Phi.leftCols(kept), modes.inverse_residual.head(kept), modes.status};
+}
+
+/// All fixed-interface modes of a domain, by dense algebra.
+Eigenpairs all_fixed_modes(const SparseMatrix& A, const SparseMatrix& M, const Domain& domain) {
+  MatrixXd W = MatrixXd::Zero(A.rows(), static_cast<Index>(domain.border.size()));
+  for (Index j = 0; j < W.cols(); ++j) W(domain.border[static_cast<std::size_t>(j)], j) = 1.0;
+  return dense_eigenpairs(A, M, W);
+}
+
+ShiftedInverse inverse_inside(const Domain& domain) {
+  return {[&](const Eigen::Ref<const MatrixXd>& B) -> MatrixXd { return domain.factor->solve(B); }, 0.0};
+}
+
+void require_converged(const Domain& domain) {
+  if (domain.modes.status == EigenStatus::converged) return;
+  throw core::NumericalError("the modes of a domain of " + std::to_string(domain.rows.size()) +
+                             " rows did not converge: take fewer domains, or find the modes without substructures");
+}
+
+/// Finds at least `count` of the fixed-interface modes, or all where there are fewer.
+void find_lowest(const Substructures& whole, Index count, Domain& domain) {
+  const SparseMatrix A = whole.stiffness(domain.rows), M = restrict_to(whole.M, domain.rows);
+  if (A.rows() <= dense_up_to || 2 * count >= static_cast<Index>(domain.inner.size())) {
+    domain.modes = all_fixed_modes(A, M, domain);
+  } else {
+    domain.modes = lowest_eigenpairs(A, M, inverse_inside(domain), static_cast<int>(count), 1e-6);
   }
-  const ShiftedInverse inverse{[&](const Eigen::Ref<const MatrixXd>& B) -> MatrixXd { return domain.factor->solve(B); },
-                               0.0};
-  if (options.lambda_max > 0.0) return eigenpairs_up_to(A, M, inverse, kappa_max);
-  return lowest_eigenpairs(A, M, inverse, static_cast<int>(count), 1e-6);
+  require_converged(domain);
 }
 
-/// The κ up to which the modes of all domains are known.
-double cut_off_of(const Substructures& whole, const SubstructureOptions& options) {
-  if (options.lambda_max > 0.0) return domain_cut_off * domain_cut_off * (options.lambda_max - whole.sigma);
-  double lowest = std::numeric_limits<double>::max();
-  for (const Domain& domain : whole.domains) lowest = std::min(lowest, domain.modes.lambda.tail(1)(0));
-  return lowest;
+/// Finds all fixed-interface modes up to κ.
+void find_up_to(const Substructures& whole, double kappa, Domain& domain) {
+  const SparseMatrix A = whole.stiffness(domain.rows), M = restrict_to(whole.M, domain.rows);
+  if (A.rows() <= dense_up_to) {
+    const Eigenpairs all = all_fixed_modes(A, M, domain);
+    domain.modes = leading(all, (all.lambda.array() <= kappa).count());
+  } else {
+    domain.modes = eigenpairs_up_to(A, M, inverse_inside(domain), kappa);
+  }
+  require_converged(domain);
 }
 
-/// Everything that a domain can find by itself.
-void reduce(const Substructures& whole, const SubstructureOptions& options, Domain& domain) {
+/// Whether a domain may have modes up to κ that are not found.
+bool ends_below(const Domain& domain, double kappa) {
+  const VectorXd& found = domain.modes.lambda;
+  return found.size() < static_cast<Index>(domain.inner.size()) && found(found.size() - 1) < kappa;
+}
+
+/// The count-th smallest κ that is found in all domains together.
+double kappa_found(const Substructures& whole, int count) {
+  std::vector<double> all;
+  for (const Domain& domain : whole.domains)
+    all.insert(all.end(), domain.modes.lambda.begin(), domain.modes.lambda.end());
+  const auto last = all.begin() + (std::min<std::ptrdiff_t>(count, std::ssize(all)) - 1);
+  std::ranges::nth_element(all, last);
+  return *last;
+}
+
+/// The count-th smallest κ of all domains together. It lies above that of the whole, because holding the interface only
+/// raises κ. More modes are found in domains softer than others until none can have one below.
+double kappa_of_domains(Substructures& whole, int count) {
+  double bound = kappa_found(whole, count);
+  while (std::ranges::any_of(whole.domains, [&](const Domain& domain) { return ends_below(domain, bound); })) {
+    whole.over_domains([&](Domain& domain) {
+      if (ends_below(domain, bound)) find_lowest(whole, 2 * domain.modes.lambda.size(), domain);
+    });
+    bound = kappa_found(whole, count);
+  }
+  return bound;
+}
+
+/// Finds the modes of all domains up to one cut-off κ, which is returned and lies above all wanted.
+double find_domain_modes(const SubstructureOptions& options, Substructures& whole) {
+  constexpr double above = domain_cut_off * domain_cut_off;
+  if (options.lambda_max > 0.0) {
+    const double cut_off = above * (options.lambda_max - whole.sigma);
+    whole.over_domains([&](Domain& domain) { find_up_to(whole, cut_off, domain); });
+    return cut_off;
+  }
+  const double rows = static_cast<double>(whole.K.rows() - std::ssize(whole.division.interface));
+  whole.over_domains([&](Domain& domain) {
+    const double share = domain_cut_off * options.count * static_cast<double>(domain.inner.size()) / rows;
+    find_lowest(whole, std::min(static_cast<Index>(share) + 4, std::ssize(domain.inner)), domain);
+  });
+  const double cut_off = above * kappa_of_domains(whole, options.count);
+  whole.over_domains([&](Domain& domain) {
+    const Eigenpairs& modes = domain.modes;
+    if (ends_below(domain, cut_off)) find_up_to(whole, cut_off, domain);
+    domain.modes = leading(modes, (modes.lambda.array() <= cut_off).count());
+  });
+  return cut_off;
+}
+
+/// The factor of a domain and what it adds to the condensed interface.
+void condense(const Substructures& whole, Domain& domain) {
   const SparseMatrix A = whole.stiffness(domain.rows);
   domain.factor = std::make_unique<CondensedFactor>(A, domain.border, domain.node_of_row);
   domain.condensed = condensed_inside(*domain.factor, A, domain);
   domain.coupling = coupling_of(A, domain.border);
-  const double part = static_cast<double>(domain.inner.size()) / static_cast<double>(whole.K.rows());
-  domain.modes = fixed_modes(A, restrict_to(whole.M, domain.rows), domain, part, whole.sigma, options);
-  if (domain.modes.status == EigenStatus::converged) return;
-  throw core::NumericalError("the modes of a domain of " + std::to_string(A.rows()) +
-                             " rows did not converge: take fewer domains, or find the modes without substructures");
 }
 
 /// The condensed interface from its own rows and what the domains add.
@@ -359,8 +423,8 @@ SubstructuredPairs substructured_eigenpairs(const SparseMatrix& K, const SparseM
   require_possible(K, options);
   Substructures whole{K, M, sigma, divide(combine(1.0, K, -sigma, M), options.domains)};
   for (std::size_t d = 0; d < whole.division.inner.size(); ++d) whole.domains.push_back(domain_of(whole.division, d));
-  whole.over_domains([&](Domain& domain) { reduce(whole, options, domain); });
-  const double cut_off = cut_off_of(whole, options);
+  whole.over_domains([&](Domain& domain) { condense(whole, domain); });
+  const double cut_off = find_domain_modes(options, whole);
   reduce_interface(cut_off, whole);
   const Reduced reduced = reduced_modes(whole);
   SubstructuredPairs result;
@@ -380,6 +444,8 @@ SubstructuredPairs substructured_eigenpairs(const SparseMatrix& K, const SparseM
   const ShiftedInverse by_domains{[&](const Eigen::Ref<const MatrixXd>& F) { return solve_in_strips(whole, F); },
                                   sigma};
   improve(whole, given.apply ? given : by_domains, options, result);
+  if (result.pairs.lambda.size() > 0 && result.pairs.lambda.tail(1)(0) > result.cut_off)
+    result.pairs.status = EigenStatus::not_converged;
   return result;
 }
 

@@ -35,7 +35,9 @@ struct [[nodiscard]] SubstructuredPairs {
 /// without any knowledge of the others, and the interface by its characteristic constraint modes (Castanier, Tan &
 /// Pierre 2001) S ψ = κ M_b ψ. Their mass M_b = Σ Ψ'ᵀM Ψ' = −dS/dσ is taken as the difference (S(σ−h) − S(σ))/h, for
 /// which Ψ, as wide as the interface, is never formed; only the columns Ψ ψ of the modes kept are. Modes of domains are
-/// kept up to twice the last frequency wanted (or in twice the number wanted), those of the interface up to four times.
+/// kept up to twice the last frequency wanted, those of the interface up to four times. Where a number is wanted, that
+/// frequency is taken from as many modes of all domains together, which lie above those of the whole, for holding the
+/// interface only stiffens it: a soft domain then gives more modes than a stiff one.
 /// The shapes of the small problem, a quarter more than are wanted, are expanded and improved by inverse iteration with
 /// a Rayleigh-Ritz projection (inverse_iteration()), until the error of each wanted frequency is within the tolerance.
 /// It is estimated by
@@ -51,8 +53,8 @@ struct [[nodiscard]] SubstructuredPairs {
 /// empty the factors of the domains and of S take its place, at twice the cost of a solve. The domains are worked on
 /// side by side, and the result is the same bit by bit for any number of threads. Throws InputError for a count or a
 /// number of domains that is not possible, NumericalError for lack of memory or a K_σ that is not positive definite.
-/// Cost: two factors and 2 count / domains pairs by block Lanczos for each domain, and two solves of `count` columns an
-/// inverse iteration.
+/// Cost: two factors for each domain, its pairs by block Lanczos, twice where a number is wanted, and two solves of
+/// `count` columns an inverse iteration.
 SubstructuredPairs substructured_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse,
                                             const SubstructureOptions& options);
 

@@ -132,6 +132,35 @@ TEST(Substructures, NoEstimateIsTooSmallOverRandomMembranesHeldOrShifted) {
   }
 }
 
+/// A membrane of n × n nodes whose springs are `soft` times as stiff in one quarter: a thin wall on a block.
+GridProblem with_soft_quarter(int n, double soft) {
+  GridProblem grid = grid_problem(n);
+  const auto in_quarter = [n](Eigen::Index row) { return row / n < n / 2 && row % n < n / 2; };
+  for (int j = 0; j < grid.K.cols(); ++j) {
+    for (SparseMatrix::InnerIterator it(grid.K, j); it; ++it) {
+      if (in_quarter(it.row()) || in_quarter(j)) it.valueRef() *= soft;
+    }
+  }
+  return grid;
+}
+
+TEST(Substructures, ModesThatLieInOneSoftDomainAreAllFound) {
+  for (const double soft : {0.04, 0.3}) {
+    for (const int count : {8, 20}) {
+      const Membrane membrane(with_soft_quarter(40, soft));
+      const GridProblem& grid = membrane.grid;
+      const auto exact = lowest_eigenpairs(grid.K, grid.M, membrane.inverse, count);
+      const auto found =
+          substructured_eigenpairs(grid.K, grid.M, membrane.inverse, {.count = count, .domains = 4, .tolerance = 1e-5});
+      ASSERT_EQ(found.pairs.status, EigenStatus::converged) << soft << " " << count;
+      const std::vector<double> lambda(exact.lambda.begin(), exact.lambda.end());
+      EXPECT_LE((errors(found, lambda) - found.error).maxCoeff(), round_off) << soft << " " << count;
+      EXPECT_GT(found.cut_off, 4.0 * lambda.back()) << soft << " " << count;
+      EXPECT_LT(found.steps, 8) << soft << " " << count;
+    }
+  }
+}
+
 TEST(Substructures, ResultsAreTheSameForAnyNumberOfThreads) {
   const GridProblem grid = grid_problem(40);
   const auto found_on = [&](int threads) {
