@@ -24,31 +24,55 @@ double hertz(double lambda) {
   return std::sqrt(std::max(lambda, 0.0)) / (2.0 * std::numbers::pi);
 }
 
-/// The pairs from substructures, whose number and estimated error are told.
-linalg::Eigenpairs from_substructures(const Model& model, const Factored& factored, const ModeOptions& options) {
-  linalg::SubstructureOptions wanted;
-  wanted.count = options.count + model.rigid_motions;
-  const double omega = 2.0 * std::numbers::pi * options.up_to_hz.value_or(0.0);
-  wanted.lambda_max = omega * omega;
-  wanted.domains = options.substructures;
-  wanted.tolerance = 1e-5;
-  linalg::SubstructuredPairs found = linalg::substructured_eigenpairs(model.K, model.M, inverse_of(factored), wanted);
-  const double worst = found.error.size() > 0 ? found.error.maxCoeff() : 0.0;
+double lambda_of(double hz) {
+  const double omega = 2.0 * std::numbers::pi * hz;
+  return omega * omega;
+}
+
+linalg::Eigenpairs by_block_lanczos(const Model& model, const Factored& factored, const ModeOptions& options) {
+  if (options.up_to_hz)
+    return linalg::eigenpairs_up_to(model.K, model.M, inverse_of(factored), lambda_of(*options.up_to_hz));
+  return linalg::lowest_eigenpairs(model.K, model.M, inverse_of(factored), options.count + model.rigid_motions,
+                                   options.inverse_residual);
+}
+
+/// Tells the number of substructures and the estimated error.
+void tell(const linalg::SubstructuredPairs& found) {
   core::inform(fmt::format(
       "modes from {} substructures: {} modes of their own, {} of the {} rows between them, {} inverse iterations; "
       "frequencies are right to {:.1e} by estimate",
-      found.domains, found.inner_modes, found.interface_modes, found.interface, found.steps, worst));
-  return std::move(found.pairs);
+      found.domains, found.inner_modes, found.interface_modes, found.interface, found.steps,
+      found.error.size() > 0 ? found.error.maxCoeff() : 0.0));
+}
+
+/// The pairs from substructures, or by block Lanczos where these do not give them: the factor is there.
+linalg::Eigenpairs from_substructures(const Model& model, const Factored& factored, const ModeOptions& options) {
+  linalg::SubstructureOptions wanted;
+  wanted.count = options.count + model.rigid_motions;
+  wanted.lambda_max = lambda_of(options.up_to_hz.value_or(0.0));
+  wanted.domains = options.substructures;
+  wanted.tolerance = 1e-5;
+  if (!options.up_to_hz && 2 * static_cast<Eigen::Index>(wanted.count) > model.K.rows()) {
+    core::inform(
+        fmt::format("modes.substructures is left out at {} degrees of freedom, which are fewer than twice {} modes",
+                    model.K.rows(), wanted.count));
+    return by_block_lanczos(model, factored, options);
+  }
+  linalg::SubstructuredPairs found = linalg::substructured_eigenpairs(model.K, model.M, inverse_of(factored), wanted);
+  if (found.pairs.status == linalg::EigenStatus::converged) {
+    tell(found);
+    return std::move(found.pairs);
+  }
+  core::warn(
+      fmt::format("modes from {} substructures did not converge in {} inverse iterations; they are found by block "
+                  "Lanczos, as without modes.substructures",
+                  found.domains, found.steps));
+  return by_block_lanczos(model, factored, options);
 }
 
 linalg::Eigenpairs solve(const Model& model, const Factored& factored, const ModeOptions& options) {
-  if (options.substructures > 0) return from_substructures(model, factored, options);
-  if (options.up_to_hz) {
-    const double omega = 2.0 * std::numbers::pi * *options.up_to_hz;
-    return linalg::eigenpairs_up_to(model.K, model.M, inverse_of(factored), omega * omega);
-  }
-  return linalg::lowest_eigenpairs(model.K, model.M, inverse_of(factored), options.count + model.rigid_motions,
-                                   options.inverse_residual);
+  return options.substructures > 0 ? from_substructures(model, factored, options)
+                                   : by_block_lanczos(model, factored, options);
 }
 
 /// The round-off of eigenvalues, ε tr K / tr M, rad²/s². The entries of K are rounded at ε of those of the stiffest

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,10 +12,9 @@
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "core/memory.hpp"
-#include "core/parallel.hpp"
 #include "linalg/inverse_iteration.hpp"
-#include "linalg/substructures/condensed_factor.hpp"
-#include "linalg/substructures/domains.hpp"
+#include "linalg/sparse_cholesky.hpp"
+#include "linalg/substructures/divided_problem.hpp"
 #include "linalg/tall.hpp"
 
 namespace thinwall::linalg {
@@ -26,188 +25,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index dense_up_to = 600;  // rows, up to which dense algebra finds many modes sooner than Lanczos
-// The cut-offs of the domains' modes over the last frequency wanted, and of the interface's modes over these. Interface
-// modes cost less than others of a domain, and their static shapes fit less well at higher frequencies.
-constexpr double domain_cut_off = 2.0, interface_cut_off = 2.0;
-
-/// A domain with its border, in local rows, and what its reduction gives.
-struct Domain {
-  std::vector<int> rows;          // of the whole matrix, ascending: inner ones and border
-  std::vector<int> inner;         // local
-  std::vector<int> border;        // local
-  std::vector<int> in_interface;  // the number of each row of the border in the interface
-  std::vector<int> node_of_row;
-  SparseMatrix coupling;  // local × border: K_ib
-  std::unique_ptr<CondensedFactor> factor;
-  MatrixXd condensed;   // border × border: −K_bi K_ii⁻¹ K_ib
-  Eigenpairs modes;     // local, zero at the border; κ in place of λ
-  MatrixXd constraint;  // local × interface modes
-};
-
-/// The place of every entry of `wanted` in `all`; both ascend.
-std::vector<int> places(const std::vector<int>& wanted, const std::vector<int>& all) {
-  std::vector<int> result;
-  for (const int row : wanted) result.push_back(static_cast<int>(std::ranges::lower_bound(all, row) - all.begin()));
-  return result;
-}
-
-Domain domain_of(const Domains& domains, std::size_t d) {
-  Domain domain;
-  std::ranges::set_union(domains.inner[d], domains.border[d], std::back_inserter(domain.rows));
-  domain.inner = places(domains.inner[d], domain.rows);
-  domain.border = places(domains.border[d], domain.rows);
-  domain.in_interface = places(domains.border[d], domains.interface);
-  for (const int row : domain.rows) domain.node_of_row.push_back(domains.node_of_row[static_cast<std::size_t>(row)]);
-  return domain;
-}
-
-/// The columns `border` of A without their rows there.
-SparseMatrix coupling_of(const SparseMatrix& A, const std::vector<int>& border) {
-  std::vector<char> in_border(static_cast<std::size_t>(A.rows()), 0);
-  for (const int row : border) in_border[static_cast<std::size_t>(row)] = 1;
-  SparseMatrix result(A.rows(), static_cast<Index>(border.size()));
-  for (Index j = 0; j < result.cols(); ++j) {
-    result.startVec(j);
-    for (SparseMatrix::InnerIterator it(A, border[static_cast<std::size_t>(j)]); it; ++it)
-      if (in_border[static_cast<std::size_t>(it.row())] == 0) result.insertBack(it.row(), j) = it.value();
-  }
-  result.finalize();
-  return result;
-}
-
-/// The whole problem K_σ = K − σM, divided.
-struct Substructures {
-  const SparseMatrix& K;
-  const SparseMatrix& M;
-  double sigma;
-  Domains division;
-  std::vector<Domain> domains{};
-  Eigen::LLT<MatrixXd> interface_factor{};
-  MatrixXd interface_modes{};  // interface × kept
-  VectorXd interface_kappa{};  // the Rayleigh quotients ψᵀSψ, with the ψ as they are normalised
-
-  /// K − (σ + shift) M on some rows.
-  [[nodiscard]] SparseMatrix stiffness(const std::vector<int>& rows, double shift = 0.0) const {
-    SparseMatrix A = restrict_to(K, rows);
-    return sigma + shift == 0.0 ? A : combine(1.0, A, -sigma - shift, restrict_to(M, rows));
-  }
-  template <class Body>
-  void over_domains(const Body& body) {
-    core::parallel_for(domains.size(), [&](std::size_t d) { body(domains[d]); });
-  }
-};
-
-/// −A_bi A_ii⁻¹ A_ib.
-MatrixXd condensed_inside(CondensedFactor& factor, const SparseMatrix& A, const Domain& domain) {
-  MatrixXd result = factor.take_condensed();
-  result -= MatrixXd(restrict_to(A, domain.border));
-  return result;
-}
-
-/// The first `kept` of some modes.
-Eigenpairs leading(const Eigenpairs& modes, Index kept) {
-  return {modes.lambda.head(kept), modes.Phi.leftCols(kept), modes.inverse_residual.head(kept), modes.status};
-}
-
-/// All fixed-interface modes of a domain, by dense algebra.
-Eigenpairs all_fixed_modes(const SparseMatrix& A, const SparseMatrix& M, const Domain& domain) {
-  MatrixXd W = MatrixXd::Zero(A.rows(), static_cast<Index>(domain.border.size()));
-  for (Index j = 0; j < W.cols(); ++j) W(domain.border[static_cast<std::size_t>(j)], j) = 1.0;
-  return dense_eigenpairs(A, M, W);
-}
-
-ShiftedInverse inverse_inside(const Domain& domain) {
-  return {[&](const Eigen::Ref<const MatrixXd>& B) -> MatrixXd { return domain.factor->solve(B); }, 0.0};
-}
-
-void require_converged(const Domain& domain) {
-  if (domain.modes.status == EigenStatus::converged) return;
-  throw core::NumericalError("the modes of a domain of " + std::to_string(domain.rows.size()) +
-                             " rows did not converge: take fewer domains, or find the modes without substructures");
-}
-
-/// Finds at least `count` of the fixed-interface modes, or all where there are fewer.
-void find_lowest(const Substructures& whole, Index count, Domain& domain) {
-  const SparseMatrix A = whole.stiffness(domain.rows), M = restrict_to(whole.M, domain.rows);
-  if (A.rows() <= dense_up_to || 2 * count >= static_cast<Index>(domain.inner.size())) {
-    domain.modes = all_fixed_modes(A, M, domain);
-  } else {
-    domain.modes = lowest_eigenpairs(A, M, inverse_inside(domain), static_cast<int>(count), 1e-6);
-  }
-  require_converged(domain);
-}
-
-/// Finds all fixed-interface modes up to κ.
-void find_up_to(const Substructures& whole, double kappa, Domain& domain) {
-  const SparseMatrix A = whole.stiffness(domain.rows), M = restrict_to(whole.M, domain.rows);
-  if (A.rows() <= dense_up_to) {
-    const Eigenpairs all = all_fixed_modes(A, M, domain);
-    domain.modes = leading(all, (all.lambda.array() <= kappa).count());
-  } else {
-    domain.modes = eigenpairs_up_to(A, M, inverse_inside(domain), kappa);
-  }
-  require_converged(domain);
-}
-
-/// Whether a domain may have modes up to κ that are not found.
-bool ends_below(const Domain& domain, double kappa) {
-  const VectorXd& found = domain.modes.lambda;
-  return found.size() < static_cast<Index>(domain.inner.size()) && found(found.size() - 1) < kappa;
-}
-
-/// The count-th smallest κ that is found in all domains together.
-double kappa_found(const Substructures& whole, int count) {
-  std::vector<double> all;
-  for (const Domain& domain : whole.domains)
-    all.insert(all.end(), domain.modes.lambda.begin(), domain.modes.lambda.end());
-  const auto last = all.begin() + (std::min<std::ptrdiff_t>(count, std::ssize(all)) - 1);
-  std::ranges::nth_element(all, last);
-  return *last;
-}
-
-/// The count-th smallest κ of all domains together. It lies above that of the whole, because holding the interface only
-/// raises κ. More modes are found in domains softer than others until none can have one below.
-double kappa_of_domains(Substructures& whole, int count) {
-  double bound = kappa_found(whole, count);
-  while (std::ranges::any_of(whole.domains, [&](const Domain& domain) { return ends_below(domain, bound); })) {
-    whole.over_domains([&](Domain& domain) {
-      if (ends_below(domain, bound)) find_lowest(whole, 2 * domain.modes.lambda.size(), domain);
-    });
-    bound = kappa_found(whole, count);
-  }
-  return bound;
-}
-
-/// Finds the modes of all domains up to one cut-off κ, which is returned and lies above all wanted.
-double find_domain_modes(const SubstructureOptions& options, Substructures& whole) {
-  constexpr double above = domain_cut_off * domain_cut_off;
-  if (options.lambda_max > 0.0) {
-    const double cut_off = above * (options.lambda_max - whole.sigma);
-    whole.over_domains([&](Domain& domain) { find_up_to(whole, cut_off, domain); });
-    return cut_off;
-  }
-  const double rows = static_cast<double>(whole.K.rows() - std::ssize(whole.division.interface));
-  whole.over_domains([&](Domain& domain) {
-    const double share = domain_cut_off * options.count * static_cast<double>(domain.inner.size()) / rows;
-    find_lowest(whole, std::min(static_cast<Index>(share) + 4, std::ssize(domain.inner)), domain);
-  });
-  const double cut_off = above * kappa_of_domains(whole, options.count);
-  whole.over_domains([&](Domain& domain) {
-    const Eigenpairs& modes = domain.modes;
-    if (ends_below(domain, cut_off)) find_up_to(whole, cut_off, domain);
-    domain.modes = leading(modes, (modes.lambda.array() <= cut_off).count());
-  });
-  return cut_off;
-}
-
-/// The factor of a domain and what it adds to the condensed interface.
-void condense(const Substructures& whole, Domain& domain) {
-  const SparseMatrix A = whole.stiffness(domain.rows);
-  domain.factor = std::make_unique<CondensedFactor>(A, domain.border, domain.node_of_row);
-  domain.condensed = condensed_inside(*domain.factor, A, domain);
-  domain.coupling = coupling_of(A, domain.border);
-}
+// The cut-off of the interface's modes over that of the domains. Interface modes cost less than others of a domain, and
+// their static shapes fit less well at higher frequencies.
+constexpr double interface_cut_off = 2.0;
 
 /// The condensed interface from its own rows and what the domains add.
 MatrixXd interface_matrix(const Substructures& whole, double shift) {
@@ -263,6 +83,10 @@ struct DomainMass {
 /// Extends the interface modes into a domain.
 DomainMass extend(const Substructures& whole, Domain& domain) {
   const MatrixXd U = whole.interface_modes(domain.in_interface, Eigen::all);
+  if (U.cols() == 0) {
+    domain.constraint.resize(std::ssize(domain.rows), 0);
+    return {MatrixXd(0, 0), MatrixXd(0, domain.modes.lambda.size())};
+  }
   domain.constraint = -domain.factor->solve(domain.coupling * U);
   SparseMatrix M = restrict_to(whole.M, domain.rows);
   // The mass of the interface alone is not this domain's, so that its rows come in by what lies inside only.
@@ -283,6 +107,7 @@ Reduced reduced_modes(Substructures& whole) {
   const Index shared = whole.interface_modes.cols();
   Index size = shared;
   for (const Domain& domain : whole.domains) size += domain.modes.lambda.size();
+  if (size == 0) return {VectorXd(0), MatrixXd(0, 0)};
   std::vector<DomainMass> masses(whole.domains.size());
   core::parallel_for(masses.size(), [&](std::size_t d) { masses[d] = extend(whole, whole.domains[d]); });
   MatrixXd K = MatrixXd::Zero(size, size), M = MatrixXd::Identity(size, size);
@@ -357,15 +182,25 @@ struct Drops {
   Eigen::ArrayXd last, before;
 };
 
-/// The estimated errors of the frequencies, infinite from the pair `beyond` on. `noise`: the round-off of a λ.
-VectorXd estimated_errors(const Drops& drops, const VectorXd& lambda, double sigma, Index beyond, double noise) {
+/// The errors of frequencies √λ that belong to errors of their λ.
+VectorXd of_frequencies(const Eigen::ArrayXd& errors, const VectorXd& lambda, double sigma, double noise) {
+  return 0.5 * errors / lambda.array().max(std::max(-sigma, noise));
+}
+
+/// The round-off of an eigenvalue, which no iteration removes.
+double round_off(const SparseMatrix& K, const SparseMatrix& M) {
+  return std::numeric_limits<double>::epsilon() * K.diagonal().sum() / M.diagonal().sum();
+}
+
+/// What is estimated to remain of the errors of λ, infinite from the pair `beyond` on; none where the last drop was
+/// round-off, `noise`.
+Eigen::ArrayXd remaining_errors(const Drops& drops, const VectorXd& lambda, double sigma, Index beyond, double noise) {
   const Eigen::ArrayXd kappa = lambda.array() - sigma;
   const Eigen::ArrayXd foreseen = (kappa / kappa(beyond)).square();
   const Eigen::ArrayXd seen = drops.last / drops.before;
   const Eigen::ArrayXd rate = foreseen.max(seen);
   const Eigen::ArrayXd remaining = (rate < 1.0).select(drops.last * rate / (1.0 - rate), HUGE_VAL);
-  const Eigen::ArrayXd above_noise = (drops.last > noise).select(remaining, 0.0);
-  return 0.5 * (above_noise + noise) / lambda.array().max(std::max(-sigma, noise));
+  return (drops.last > noise).select(remaining, 0.0);
 }
 
 /// The number of pairs that are wanted of these, and of those to carry along, which keep the errors of the last ones
@@ -380,7 +215,7 @@ void improve(const Substructures& whole, const ShiftedInverse& inverse, const Su
              SubstructuredPairs& result) {
   constexpr int most_steps = 20;
   Eigenpairs& pairs = result.pairs;
-  const double noise = std::numeric_limits<double>::epsilon() * whole.K.diagonal().sum() / whole.M.diagonal().sum();
+  const double noise = round_off(whole.K, whole.M);
   Index wanted = 0;
   pairs.status = EigenStatus::not_converged;
   Drops drops{{}, Eigen::ArrayXd::Constant(pairs.lambda.size(), HUGE_VAL)};
@@ -391,9 +226,11 @@ void improve(const Substructures& whole, const ShiftedInverse& inverse, const Su
     drops.last = (before - pairs.lambda).cwiseMax(0.0);
     wanted = wanted_of(pairs.lambda, options);
     const Index beyond = (wanted + pairs.lambda.size() - 1) / 2;
-    result.error = estimated_errors(drops, pairs.lambda, whole.sigma, beyond, noise);
+    const Eigen::ArrayXd remaining = remaining_errors(drops, pairs.lambda, whole.sigma, beyond, noise);
+    result.error = of_frequencies(remaining + noise, pairs.lambda, whole.sigma, noise);
     drops.before = drops.last;
-    if ((result.error.head(wanted).array() <= options.tolerance).all()) pairs.status = EigenStatus::converged;
+    const VectorXd removable = of_frequencies(remaining, pairs.lambda, whole.sigma, noise);
+    if ((removable.head(wanted).array() <= options.tolerance).all()) pairs.status = EigenStatus::converged;
   }
   if (wanted < options.count && options.lambda_max <= 0.0) pairs.status = EigenStatus::not_converged;
   pairs.lambda.conservativeResize(wanted);
@@ -408,11 +245,46 @@ Index carried(const VectorXd& lambda, const SubstructureOptions& options) {
   return std::min<Index>(wanted + std::max<Index>(8, wanted / 4), lambda.size());
 }
 
+/// Whether a division leaves anything to be joined, and enough rows inside for the modes wanted.
+bool serves(const Domains& division, Index rows, const SubstructureOptions& options) {
+  const Index inner = rows - std::ssize(division.interface);
+  return division.inner.size() > 1 && inner < rows && (options.lambda_max > 0.0 || options.count <= inner);
+}
+
+/// The pairs of the whole matrix by block Lanczos, where it cannot be divided.
+SubstructuredPairs undivided(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& given,
+                             const std::vector<int>& node_of_row, const SubstructureOptions& options) {
+  std::optional<SparseCholesky> factor;
+  if (!given.apply) factor.emplace(K, -given.sigma, M, node_of_row);
+  const ShiftedInverse by_factor{[&](const Eigen::Ref<const MatrixXd>& F) { return factor->solve(F); }, given.sigma};
+  const ShiftedInverse& inverse = given.apply ? given : by_factor;
+  SubstructuredPairs result;
+  result.pairs = options.lambda_max > 0.0 ? eigenpairs_up_to(K, M, inverse, options.lambda_max)
+                                          : lowest_eigenpairs(K, M, inverse, options.count);
+  const double noise = round_off(K, M);
+  result.error = of_frequencies(Eigen::ArrayXd::Constant(result.pairs.lambda.size(), noise), result.pairs.lambda,
+                                given.sigma, noise);
+  result.domains = 1;
+  result.cut_off = HUGE_VAL;
+  return result;
+}
+
 void require_possible(const SparseMatrix& K, const SubstructureOptions& options) {
   if (options.lambda_max > 0.0 || (options.count >= 1 && 2 * options.count <= K.rows())) return;
   throw core::InputError("asked for " + std::to_string(options.count) + " modes of substructures with " +
                          std::to_string(K.rows()) + " degrees of freedom in all: ask for 1 to " +
                          std::to_string(K.rows() / 2));
+}
+
+/// The numbers of what gave a reduced problem.
+SubstructuredPairs size_of(const Substructures& whole, const Reduced& reduced) {
+  SubstructuredPairs result;
+  result.domains = static_cast<int>(whole.domains.size());
+  result.interface = std::ssize(whole.division.interface);
+  result.interface_modes = whole.interface_modes.cols();
+  result.inner_modes = reduced.kappa.size() - result.interface_modes;
+  result.pairs.Phi.resize(whole.K.rows(), 0);
+  return result;
 }
 
 }  // namespace
@@ -422,17 +294,16 @@ SubstructuredPairs substructured_eigenpairs(const SparseMatrix& K, const SparseM
   const double sigma = given.sigma;
   require_possible(K, options);
   Substructures whole{K, M, sigma, divide(combine(1.0, K, -sigma, M), options.domains)};
+  if (!serves(whole.division, K.rows(), options)) return undivided(K, M, given, whole.division.node_of_row, options);
   for (std::size_t d = 0; d < whole.division.inner.size(); ++d) whole.domains.push_back(domain_of(whole.division, d));
   whole.over_domains([&](Domain& domain) { condense(whole, domain); });
   const double cut_off = find_domain_modes(options, whole);
   reduce_interface(cut_off, whole);
   const Reduced reduced = reduced_modes(whole);
-  SubstructuredPairs result;
-  result.domains = static_cast<int>(whole.domains.size());
-  result.interface = static_cast<Index>(whole.division.interface.size());
-  result.interface_modes = whole.interface_modes.cols();
-  result.inner_modes = reduced.kappa.size() - result.interface_modes;
+  SubstructuredPairs result = size_of(whole, reduced);
   result.cut_off = cut_off + sigma;
+  // Without any mode below the cut-offs all lie above lambda_max: 1/√λ ≤ 1/√κ of a domain + 1/√κ of the interface.
+  if (reduced.kappa.size() == 0) return result;
   const VectorXd lambda = reduced.kappa.array() + sigma;
   const Index kept = carried(lambda, options);
   result.pairs.lambda = lambda.head(kept);

@@ -12,17 +12,17 @@ struct SubstructureOptions {
   int count = 100;          ///< number of pairs, the next above σ
   double lambda_max = 0.0;  ///< rad²/s²; if > 0, all pairs up to it instead, whatever their number
   int domains = 2;          ///< a power of two, ≥ 2
-  double tolerance = 1e-3;  ///< of the error of each frequency √λ, as it is estimated
+  double tolerance = 1e-3;  ///< of the error of each frequency √λ, as it is estimated without round-off
 };
 
 /// Eigenpairs with the estimated errors of their frequencies, and the size of what gave them.
 struct [[nodiscard]] SubstructuredPairs {
-  Eigenpairs pairs;       ///< not_converged if an estimate exceeds the tolerance
+  Eigenpairs pairs;       ///< not_converged if an estimate, but for round-off, exceeds the tolerance
   Eigen::VectorXd error;  ///< of each frequency √λ, relative; that of a motion without stiffness is that of √−σ
-  int domains = 0;        ///< as many as the matrix was divided into
+  int domains = 0;        ///< as many as the matrix was divided into; 1: by block Lanczos on the whole
   Eigen::Index interface = 0;                         ///< rows
   Eigen::Index interface_modes = 0, inner_modes = 0;  ///< columns of the reduced basis
-  double cut_off = 0.0;  ///< λ, rad²/s², up to which the basis has all modes of the domains
+  double cut_off = 0.0;  ///< λ, rad²/s², up to which the basis has all modes of the domains; infinite with one
   int steps = 0;         ///< inverse iterations
 };
 
@@ -47,7 +47,9 @@ struct [[nodiscard]] SubstructuredPairs {
 /// with the drops d of λ in the last iteration and the one before. An iteration multiplies the part that a mode j left
 /// out has in the error by (κ/κ_j)², so that what it has removed bounds what remains; κ_g is the middle one of those
 /// carried along beyond the wanted, which lies below all modes left out. The last term is the round-off of an
-/// eigenvalue. A mode that the reduced basis does not know at all is not seen: count_eigenvalues_below() would tell.
+/// eigenvalue, which no iteration lowers, so that it is not held to the tolerance. A matrix that falls into pieces, or
+/// has fewer rows inside of its domains than pairs are wanted, is left whole: lowest_eigenpairs(), eigenpairs_up_to().
+/// A mode that the reduced basis does not know at all is not seen: count_eigenvalues_below() would tell.
 ///
 /// K, M: n × n, both triangles, K_σ positive definite. inverse: σ, and K_σ⁻¹ if the caller has it; where its `apply` is
 /// empty the factors of the domains and of S take its place, at twice the cost of a solve. The domains are worked on

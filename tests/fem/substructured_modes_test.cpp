@@ -61,5 +61,50 @@ TEST(SubstructuredModes, ModesOfAPartAreFoundByThemAndTold) {
   EXPECT_THROW((void)modes(model, factored, {.count = 20, .substructures = 6}), core::InputError);
 }
 
+/// What was told while the body ran.
+template <class Body>
+std::vector<std::string> told_by(const Body& body) {
+  std::vector<std::string> told;
+  const auto before =
+      core::set_message_listener([&](core::MessageLevel, const std::string& text) { told.push_back(text); });
+  body();
+  (void)core::set_message_listener(before);
+  return told;
+}
+
+TEST(SubstructuredModes, AWallTooThinForTheToleranceInDoublesConverges) {
+  const Model model = plate(true, {0.4, 0.25, 0.0005});
+  const Factored factored = factorise(model);
+  const auto told = told_by([&] {
+    const Modes found = modes(model, factored, {.count = 6, .substructures = 2, .up_to_hz = {}});
+    EXPECT_GT(found.round_off, 1e-5);
+  });
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told[0].find("modes from 2 substructures: "), std::string::npos) << told[0];
+}
+
+TEST(SubstructuredModes, ABoundBelowAllModesIsNamed) {
+  const Model model = plate(true);
+  const Factored factored = factorise(model);
+  try {
+    (void)modes(model, factored, {.substructures = 2, .up_to_hz = 1.0});
+    ADD_FAILURE();
+  } catch (const core::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("raise modes.up_to"), std::string::npos) << error.what();
+  }
+}
+
+TEST(SubstructuredModes, AMeshWithFewRowsTakesBlockLanczos) {
+  const Model model = supported_model(mesh::kuhn_box({0.1, 0.05, 0.01}, {2, 1, 1}), 2, {210e9, 0.3, 7850.0}, {});
+  const Factored factored = factorise(model);
+  const auto count = static_cast<int>(model.K.rows() / 2);
+  const auto told = told_by([&] {
+    const Modes found = modes(model, factored, {.count = count, .substructures = 2, .up_to_hz = {}});
+    EXPECT_EQ(found.frequency_hz.size(), count + 6);
+  });
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told[0].find("modes.substructures is left out"), std::string::npos) << told[0];
+}
+
 }  // namespace
 }  // namespace thinwall::fem::substructured_modes_test
