@@ -28,6 +28,7 @@ using Eigen::VectorXd;
 // The cut-off of the interface's modes over that of the domains. Interface modes cost less than others of a domain, and
 // their static shapes fit less well at higher frequencies.
 constexpr double interface_cut_off = 2.0;
+constexpr Index columns_of_iteration = 6;  // Φ, M Φ, Y, M Y, R and M R of inverse_iteration(), all at once
 
 /// The condensed interface from its own rows and what the domains add.
 MatrixXd interface_matrix(const Substructures& whole, double shift) {
@@ -65,6 +66,7 @@ void reduce_interface(double cut_off, Substructures& whole) {
   });
   // With S_h = S + h M_b the eigenvalue is μ = κ / (κ + h).
   const MatrixXd S_h = interface_matrix(whole, -h);
+  for (Domain& domain : whole.domains) domain.condensed.resize(0, 0);
   const double bound = interface_cut_off * interface_cut_off * cut_off;
   Eigenpairs pairs = interface_pairs(S, S_h, whole.interface_factor, bound / (bound + h));
   if (pairs.status != EigenStatus::converged) {
@@ -97,6 +99,13 @@ DomainMass extend(const Substructures& whole, Domain& domain) {
   return {tall_gram(domain.constraint, MX), tall_gram(MX, domain.modes.Phi)};
 }
 
+/// Throws unless there is memory for so many columns of all rows.
+void require_columns(const Substructures& whole, Index columns, const std::string& of) {
+  core::require_memory(
+      8.0 * static_cast<double>(whole.K.rows()) * static_cast<double>(columns),
+      std::to_string(columns) + " columns of " + std::to_string(whole.K.rows()) + " rows for the " + of);
+}
+
 /// The small problem in the amplitudes of the interface modes, then of the modes of each domain.
 struct Reduced {
   VectorXd kappa;
@@ -108,6 +117,7 @@ Reduced reduced_modes(Substructures& whole) {
   Index size = shared;
   for (const Domain& domain : whole.domains) size += domain.modes.lambda.size();
   if (size == 0) return {VectorXd(0), MatrixXd(0, 0)};
+  require_columns(whole, 2 * shared, "modes of the interface");  // with M times them
   std::vector<DomainMass> masses(whole.domains.size());
   core::parallel_for(masses.size(), [&](std::size_t d) { masses[d] = extend(whole, whole.domains[d]); });
   MatrixXd K = MatrixXd::Zero(size, size), M = MatrixXd::Identity(size, size);
@@ -203,10 +213,9 @@ Eigen::ArrayXd remaining_errors(const Drops& drops, const VectorXd& lambda, doub
   return (drops.last > noise).select(remaining, 0.0);
 }
 
-/// The number of pairs that are wanted of these, and of those to carry along, which keep the errors of the last ones
-/// from being large.
+/// The number of pairs that are wanted of these: with a bound all that may lie below it within the tolerance.
 Index wanted_of(const VectorXd& lambda, const SubstructureOptions& options) {
-  return options.lambda_max > 0.0 ? (lambda.array() <= options.lambda_max).count()
+  return options.lambda_max > 0.0 ? (lambda.array() <= (1.0 + 2.0 * options.tolerance) * options.lambda_max).count()
                                   : std::min<Index>(options.count, lambda.size());
 }
 
@@ -216,6 +225,7 @@ void improve(const Substructures& whole, const ShiftedInverse& inverse, const Su
   constexpr int most_steps = 20;
   Eigenpairs& pairs = result.pairs;
   const double noise = round_off(whole.K, whole.M);
+  const bool up_to = options.lambda_max > 0.0;
   Index wanted = 0;
   pairs.status = EigenStatus::not_converged;
   Drops drops{{}, Eigen::ArrayXd::Constant(pairs.lambda.size(), HUGE_VAL)};
@@ -230,16 +240,34 @@ void improve(const Substructures& whole, const ShiftedInverse& inverse, const Su
     result.error = of_frequencies(remaining + noise, pairs.lambda, whole.sigma, noise);
     drops.before = drops.last;
     const VectorXd removable = of_frequencies(remaining, pairs.lambda, whole.sigma, noise);
-    if ((removable.head(wanted).array() <= options.tolerance).all()) pairs.status = EigenStatus::converged;
+    // The pair behind may belong below lambda_max, which shows once it is right, too.
+    const Index held = up_to ? std::max(wanted, std::min(wanted + 1, beyond)) : wanted;
+    if ((removable.head(held).array() <= options.tolerance).all()) pairs.status = EigenStatus::converged;
   }
-  if (wanted < options.count && options.lambda_max <= 0.0) pairs.status = EigenStatus::not_converged;
+  if (wanted < options.count && !up_to) pairs.status = EigenStatus::not_converged;
+  if (up_to && pairs.status == EigenStatus::converged)
+    wanted = ((pairs.lambda.array() * (1.0 - 2.0 * result.error.array())).head(wanted) <= options.lambda_max).count();
   pairs.lambda.conservativeResize(wanted);
   pairs.Phi.conservativeResize(Eigen::NoChange, wanted);
   pairs.inverse_residual.conservativeResize(wanted);
   result.error.conservativeResize(wanted);
 }
 
-/// The number of modes of the small problem to carry along, the wanted ones included.
+/// Gives up what the domains have found once their shapes are in those of the whole, with their factors unless these
+/// are to solve.
+void give_up(bool factors_too, Substructures& whole) {
+  for (Domain& domain : whole.domains) {
+    domain.modes.Phi.resize(0, 0);
+    domain.constraint.resize(0, 0);
+    if (!factors_too) continue;
+    domain.factor.reset();
+    domain.coupling.resize(0, 0);
+  }
+  if (factors_too) whole.interface_factor = {};
+}
+
+/// The number of modes of the small problem to carry along, the wanted ones included and others, which keep the errors
+/// of the last ones from being large.
 Index carried(const VectorXd& lambda, const SubstructureOptions& options) {
   const Index wanted = wanted_of(lambda, options);
   return std::min<Index>(wanted + std::max<Index>(8, wanted / 4), lambda.size());
@@ -307,11 +335,9 @@ SubstructuredPairs substructured_eigenpairs(const SparseMatrix& K, const SparseM
   const VectorXd lambda = reduced.kappa.array() + sigma;
   const Index kept = carried(lambda, options);
   result.pairs.lambda = lambda.head(kept);
+  require_columns(whole, columns_of_iteration * kept, "modes and their inverse iteration");
   result.pairs.Phi = expanded(whole, reduced, kept);
-  for (Domain& domain : whole.domains) {  // their shapes are in those of the whole
-    domain.modes.Phi.resize(0, 0);
-    domain.constraint.resize(0, 0);
-  }
+  give_up(given.apply != nullptr, whole);
   const ShiftedInverse by_domains{[&](const Eigen::Ref<const MatrixXd>& F) { return solve_in_strips(whole, F); },
                                   sigma};
   improve(whole, given.apply ? given : by_domains, options, result);

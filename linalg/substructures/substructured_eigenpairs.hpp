@@ -10,7 +10,7 @@ namespace thinwall::linalg {
 /// The pairs wanted, and how they are found.
 struct SubstructureOptions {
   int count = 100;          ///< number of pairs, the next above σ
-  double lambda_max = 0.0;  ///< rad²/s²; if > 0, all pairs up to it instead, whatever their number
+  double lambda_max = 0.0;  ///< rad²/s²; if > 0, all pairs up to it, or to 2 `error` beyond, whatever their number
   int domains = 2;          ///< a power of two, ≥ 2
   double tolerance = 1e-3;  ///< of the error of each frequency √λ, as it is estimated without round-off
 };

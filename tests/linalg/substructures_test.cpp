@@ -112,6 +112,18 @@ TEST(Substructures, AllModesBelowABoundAreFound) {
   EXPECT_GT(found.cut_off, 4.0 * bound * (1.0 - 1e-12));
 }
 
+TEST(Substructures, AModeJustBelowTheBoundIsNotLost) {
+  const Membrane membrane(grid_problem(30));
+  const std::vector<double>& exact = membrane.grid.lambda;
+  for (std::size_t last = 5; last < 40; ++last) {
+    if (exact[last + 1] < 1.02 * exact[last]) continue;
+    const auto found = substructured_eigenpairs(membrane.grid.K, membrane.grid.M, membrane.inverse,
+                                                {.lambda_max = (1.0 + 1e-5) * exact[last], .domains = 4});
+    ASSERT_EQ(found.pairs.status, EigenStatus::converged) << last;
+    EXPECT_EQ(found.pairs.lambda.size(), static_cast<Eigen::Index>(last) + 1);
+  }
+}
+
 TEST(Substructures, NoEstimateIsTooSmallOverRandomMembranesHeldOrShifted) {
   std::mt19937_64 random(24);
   std::uniform_real_distribution<double> spread(0.2, 5.0);
