@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/messages.hpp"
+#include "fem/error/error_of_orders.hpp"
 #include "fem/free_motions.hpp"
 #include "linalg/inverse_iteration.hpp"
 #include "linalg/rayleigh_quotients.hpp"
@@ -51,7 +52,7 @@ linalg::Eigenpairs from_substructures(const Model& model, const Factored& factor
   wanted.count = options.count + model.rigid_motions;
   wanted.lambda_max = lambda_of(options.up_to_hz.value_or(0.0));
   wanted.domains = options.substructures;
-  wanted.tolerance = 1e-5;
+  wanted.tolerance = substructures_error;
   if (!options.up_to_hz && 2 * static_cast<Eigen::Index>(wanted.count) > model.K.rows()) {
     core::inform(
         fmt::format("modes.substructures is left out at {} degrees of freedom, which are fewer than twice {} modes",

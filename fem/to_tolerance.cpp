@@ -168,6 +168,11 @@ void add_shape(const SolidPart& part, const Model& model, Errors& errors) {
   errors.frequency += errors.shape;
 }
 
+/// Adds what the modes of both compared solutions may err by where they come from substructures.
+void add_substructures(const ModeOptions& options, Errors& errors) {
+  if (options.substructures > 0) errors.frequency += substructures_error;
+}
+
 void add_step(Refinement& r, RefinementStep step) {
   if (r.options.solved) r.options.solved(step);
   r.estimate.steps.push_back(std::move(step));
@@ -180,8 +185,10 @@ std::pair<Errors, Errors> compared(Refinement& r, int level, const Solution& bel
   compare_receptances(below.responses, above.responses, above.modes, r.options.points, step);
   add_step(r, std::move(step));
   auto errors = errors_of_last_two(r.estimate.steps, r.exponent, r.usual_order);
-  add_shape(r.part, below.model, errors.first);
-  add_shape(r.part, above.model, errors.second);
+  for (auto [model, of_it] : {std::pair{&below.model, &errors.first}, std::pair{&above.model, &errors.second}}) {
+    add_shape(r.part, *model, *of_it);
+    add_substructures(r.options.modes, *of_it);
+  }
   return errors;
 }
 
@@ -386,7 +393,8 @@ Estimate estimate_by_next_order(const Model& model, const Factored& factored, co
   const double least = options.reentrant_edges ? reentrant_edge_exponent : 1.0;
   Estimate estimate;
   estimate.steps = {{0, model.nodes.order, model.K.rows(), {}, {}}, step};
-  const Errors errors = errors_of_last_two(estimate.steps, {{least, 1.0}, {least, 1.0}}, 0).first;
+  Errors errors = errors_of_last_two(estimate.steps, {{least, 1.0}, {least, 1.0}}, 0).first;
+  add_substructures(options.modes, errors);
   estimate.frequency = errors.frequency;
   estimate.receptance = errors.receptance;
   estimate.entry = errors.entry;

@@ -252,6 +252,11 @@ void check_substructures(const Case& source, Findings& findings) {
   if (source.modes.verify)
     findings.report("modes.verify",
                     "compares frequencies to 1e-8, and modes.substructures finds them to 1e-5; remove one of them");
+  if (const setup::MeshOptions& mesh = source.part->mesh; !mesh.element_size && mesh.tolerance < 1e-4)
+    findings.report(
+        "part.mesh.tolerance",
+        "is below 1e-4, to which shapes from modes.substructures are not right; take 1e-4 or more, or remove "
+        "modes.substructures");
 }
 
 void check_mode_counts(const Case& source, Findings& findings) {

@@ -21,6 +21,9 @@ struct Exponents {
   Exponent frequency, receptance;
 };
 
+/// The relative error to which modes() brings each frequency that it finds by substructures, round-off apart.
+inline constexpr double substructures_error = 1e-5;
+
 /// The estimated relative errors of a solution. That of an entry by its own magnitude is told, and held to no
 /// tolerance: a stiff direction may be thousands of times stiffer than the one that chatters, and its error falls
 /// slowly, for it comes from the edge of the loaded disc, which no edge of an element follows.

@@ -121,6 +121,11 @@ TEST(BadCase, SubstructuresArePowersOfTwoAndNotVerified) {
   expect_problem("[points.P]", modes("substructures = 6"), "6 is no power of two; take 4 or 8");
   expect_problem("[points.P]", modes("substructures = 1"), "at least 2");
   expect_problem("[points.P]", modes("substructures = 4\nverify = true"), "compares frequencies to 1e-8");
+  const auto to_tolerance = [](const std::string& text) {
+    return with(text, "element_size = \"12 mm\"", "tolerance = 9e-5");
+  };
+  EXPECT_NO_THROW((void)parse_case(to_tolerance(plate_case()), "."));
+  EXPECT_THROW((void)parse_case(to_tolerance(good), "."), core::InputError);
 }
 
 TEST(BadCase, NanAndInfinityAreNeverTaken) {

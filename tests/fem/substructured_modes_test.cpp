@@ -7,6 +7,7 @@
 #include "core/messages.hpp"
 #include "fem/modes.hpp"
 #include "fem/supports.hpp"
+#include "fem/to_tolerance.hpp"
 #include "linalg/substructures/substructured_eigenpairs.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
@@ -81,6 +82,21 @@ TEST(SubstructuredModes, AWallTooThinForTheToleranceInDoublesConverges) {
   });
   ASSERT_EQ(told.size(), 1U);
   EXPECT_NE(told[0].find("modes from 2 substructures: "), std::string::npos) << told[0];
+}
+
+TEST(SubstructuredModes, TheirErrorIsInTheEstimateOfTheMesh) {
+  const auto plate_of = [](int order) {
+    return supported_model(mesh::kuhn_box({0.3, 0.2, 0.006}, {12, 8, 1}), order, {210e9, 0.3, 7850.0},
+                           {{"edge", mesh::PlaneRegion{{0, 0, 0}, {1, 0, 0}}, {0, 1, 2}}});
+  };
+  const Model model = plate_of(2), higher = plate_of(3);
+  const Factored factored = factorise(model);
+  const auto estimated = [&](int substructures) {
+    ToleranceOptions options;
+    options.modes = {.count = 6, .substructures = substructures, .up_to_hz = {}};
+    return estimate_by_next_order(model, factored, modes(model, factored, options.modes), higher, options).frequency;
+  };
+  EXPECT_NEAR(estimated(2) - estimated(0), 1e-5, 5e-6);  // the changes differ by the true errors, which are far smaller
 }
 
 TEST(SubstructuredModes, ABoundBelowAllModesIsNamed) {
