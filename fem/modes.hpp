@@ -13,7 +13,8 @@ namespace thinwall::fem {
 struct ModeOptions {
   int count = 10;  ///< number of elastic modes; used if up_to_hz is not given
   /// If not 0 the modes come from so many domains (2, 4, 8 …) by linalg::substructured_eigenpairs(), to 1e-5 of their
-  /// frequencies by its estimate, in place of block Lanczos.
+  /// frequencies by its estimate and round-off, in place of block Lanczos. That is taken all the same where they do not
+  /// converge, with a warning, and where more than half of all modes are wanted.
   int substructures = 0;
   std::optional<double> up_to_hz{};  ///< if given, all modes below this frequency instead
   double inverse_residual = 3e-10;   ///< ≤ 1e-6, for `count` modes: error of a shape; its square is that of λ
