@@ -82,7 +82,7 @@ void find_up_to(const Substructures& whole, double kappa, Domain& domain) {
   require_converged(domain);
 }
 
-/// Whether a domain may have modes up to κ that are not found.
+/// True if a domain may have modes up to κ that are not found.
 bool ends_below(const Domain& domain, double kappa) {
   const VectorXd& found = domain.modes.lambda;
   return found.size() < static_cast<Index>(domain.inner.size()) && found(found.size() - 1) < kappa;

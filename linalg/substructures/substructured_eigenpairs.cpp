@@ -187,7 +187,7 @@ MatrixXd solve_in_strips(const Substructures& whole, const Eigen::Ref<const Matr
   return X;
 }
 
-/// What an inverse iteration took from each λ, and the iteration before it; infinite where there was none.
+/// The amount that an inverse iteration took from each λ, and the iteration before it; infinite where there was none.
 struct Drops {
   Eigen::ArrayXd last, before;
 };
@@ -202,7 +202,7 @@ double round_off(const SparseMatrix& K, const SparseMatrix& M) {
   return std::numeric_limits<double>::epsilon() * K.diagonal().sum() / M.diagonal().sum();
 }
 
-/// What is estimated to remain of the errors of λ, infinite from the pair `beyond` on; none where the last drop was
+/// The estimate of what remains of the errors of λ, infinite from the pair `beyond` on; none where the last drop was
 /// round-off, `noise`.
 Eigen::ArrayXd remaining_errors(const Drops& drops, const VectorXd& lambda, double sigma, Index beyond, double noise) {
   const Eigen::ArrayXd kappa = lambda.array() - sigma;
@@ -273,7 +273,7 @@ Index carried(const VectorXd& lambda, const SubstructureOptions& options) {
   return std::min<Index>(wanted + std::max<Index>(8, wanted / 4), lambda.size());
 }
 
-/// Whether a division leaves anything to be joined, and enough rows inside for the modes wanted.
+/// True if a division leaves anything to be joined, and enough rows inside for the modes wanted.
 bool serves(const Domains& division, Index rows, const SubstructureOptions& options) {
   const Index inner = rows - std::ssize(division.interface);
   return division.inner.size() > 1 && inner < rows && (options.lambda_max > 0.0 || options.count <= inner);

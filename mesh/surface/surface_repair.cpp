@@ -163,8 +163,8 @@ SurfaceFinding crowded_edges(const TriangleSoup& soup) {
   return finding;
 }
 
-/// Of the diagonal: edges of bodies that should lie on each other leave slivers of this width in their union, for the
-/// coordinates of a file have seven digits or so.
+/// A share of the diagonal: edges of bodies that should lie on each other leave slivers of this width in their union,
+/// for the coordinates of a file have seven digits or so.
 constexpr double sliver_of_union = 1e-7;
 
 /// Replaces several bodies by their union if all of them touch or overlap. A soup that is no set of closed bodies, or

@@ -62,7 +62,7 @@ double open_by_depth(const FittedStructure& structure, const CutAtSpeed& cut, co
   return 1.0 - least_m / options.depth_limit_m;
 }
 
-/// The same by what is known at the depth limit alone: 1 if |μ| there may exceed 1 by an estimate of it, twice its
+/// That share by what is known at the depth limit alone: 1 if |μ| there may exceed 1 by an estimate of it, twice its
 /// larger change by every second line, that by the lines within, and five standard deviations (jackknife), else 0.
 double open_by_multiplier(const FittedStructure& structure, const CutAtSpeed& cut, const StabilityOptions& options,
                           double estimate) {

@@ -1,5 +1,5 @@
 #pragma once
-// What lines leave open of a row that is stable up to the depth limit.
+// The part of the depth that lines leave open in a row that is stable up to the depth limit.
 
 #include "milling/chart/sampled_stability.hpp"
 #include "milling/direct/cut_at_speed.hpp"
