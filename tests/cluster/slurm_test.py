@@ -68,6 +68,7 @@ class Slurm:
 
     def __init__(self, folder):
         self.folder = folder
+        self.seen = {}  # jobs that wait after a restart, and since when
         for name in ("state", "spool"):
             (folder / name).mkdir()
         self.host = host = socket.gethostname().split(".")[0]
@@ -140,13 +141,17 @@ PartitionName=main Nodes=ALL Default=YES MaxTime=INFINITE State=UP
         return len(shards)
 
     def jobs(self):
-        """The jobs that are not over; those that wait after a restart are told not to."""
+        """The jobs that are not over; those that wait after a restart are told not to, two seconds later: one that
+        begins within the second of its end has the credential that was revoked then, and is lost."""
         queue = self.run("squeue", "-h", "-r", "-o", "%i %t %r")
         lines = queue.stdout.splitlines() if queue.returncode == 0 else ["? ? the controller does not answer"]
         for line in lines:
             number, state, reason = line.split(maxsplit=2)
-            if state == "PD" and reason == "BeginTime":
+            if state != "PD" or reason != "BeginTime":
+                continue
+            if time.monotonic() - self.seen.setdefault(number, time.monotonic()) > 2.0:
                 self.run("scontrol", "update", f"jobid={number}", "StartTime=now")
+                del self.seen[number]
         return lines
 
     def stop(self):
