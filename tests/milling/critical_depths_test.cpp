@@ -38,17 +38,19 @@ TEST(CriticalDepths, AreFoundWhereTheEigenvalueIsReal) {
   EXPECT_NEAR(search.none_below_m(), 0.75 * 0.5, 1e-12);
 }
 
-/// −Z of 80 rows with the eigenvalues 2^−k e^{i(θ − a_k)}, a_k = 0.4 + 0.4 k to k = 6 and 0 from there on: of them 2^−k
-/// is real at θ = a_k, at the depth 2^k.
+/// −Z of 80 rows with the eigenvalues 2^−k e^{i(θ ± a_k)}, a_k = 0.4 + 0.4 k to k = 6, and 0: of them 2^−k is real at
+/// θ = a_k, at the depth 2^k. It is real at θ = 0 and π.
 GainOnCircle large_gain() {
   constexpr Eigen::Index rows = 80, turning = 7;
-  Eigen::MatrixXcd V = Eigen::MatrixXcd::Identity(rows, rows);
+  Eigen::MatrixXd V = Eigen::MatrixXd::Identity(rows, rows), turns = Eigen::MatrixXd::Zero(rows, rows);
   for (Eigen::Index i = 0; i < rows; ++i)
     for (Eigen::Index j = 0; j < rows; ++j) V(i, j) += 0.02 * std::sin(1.0 + static_cast<double>(3 * i * j + i));
-  Eigen::VectorXcd nu = Eigen::VectorXcd::Zero(rows);
-  for (Eigen::Index k = 0; k < turning; ++k)
-    nu(k) = std::polar(std::pow(0.5, static_cast<double>(k)), -0.4 - 0.4 * static_cast<double>(k));
-  const Eigen::MatrixXcd at_zero = -(V * nu.asDiagonal() * V.inverse());
+  for (Eigen::Index k = 0; k < turning; ++k) {
+    const double size = std::pow(0.5, static_cast<double>(k)), angle = 0.4 + 0.4 * static_cast<double>(k);
+    turns.block<2, 2>(2 * k, 2 * k) << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+    turns.block<2, 2>(2 * k, 2 * k) *= size;
+  }
+  const Eigen::MatrixXcd at_zero = (-(V * turns * V.inverse())).cast<std::complex<double>>();
   const auto Z = [at_zero](double theta) { return Eigen::MatrixXcd(std::polar(1.0, theta) * at_zero); };
   return {rows, Z, [Z](double theta) { return Eigen::MatrixXcd(std::complex<double>(0.0, 1.0) * Z(theta)); },
           stops_between(Eigen::VectorXcd::Constant(1, 0.5))};
