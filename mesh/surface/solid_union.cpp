@@ -78,10 +78,10 @@ std::optional<Body> united_with_one(const Body& body, std::list<Body>& others) {
 std::list<Body> united_in_pairs(std::list<Body> bodies) {
   std::list<Body> result;
   while (!bodies.empty()) {
-    const Body body = std::move(bodies.front());
+    Body body = std::move(bodies.front());
     bodies.pop_front();
     std::optional<Body> both = united_with_one(body, bodies);
-    result.push_back(both ? std::move(*both) : body);
+    result.push_back(both ? std::move(*both) : std::move(body));
   }
   return result;
 }
@@ -101,7 +101,7 @@ std::vector<char> union_in_bytes(const std::vector<TriangleSoup>& bodies) {
   const std::size_t of_triangles = result.triangles.size() * sizeof result.triangles[0];
   std::vector<char> bytes(sizeof count + of_points + of_triangles);
   std::memcpy(bytes.data(), &count, sizeof count);
-  std::memcpy(bytes.data() + sizeof count, result.points.data(), of_points);
+  std::memcpy(bytes.data() + sizeof count, static_cast<const void*>(result.points.data()), of_points);
   std::memcpy(bytes.data() + sizeof count + of_points, result.triangles.data(), of_triangles);
   return bytes;
 }
