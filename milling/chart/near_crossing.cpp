@@ -156,9 +156,9 @@ std::optional<Eigenpair> on_fine_grid(const GainOnCircle& gain, const NearAxis& 
   }
 }
 
-/// Those eigenvalues of the coarse grid on the fine one. Two that nearly meet at an end of the half circle are further
-/// apart from one grid to the other than others, as the root of what these differ by: there all of the fine grid are
-/// looked at.
+/// The given eigenvalues of the coarse grid, found again on the fine one. Two that nearly meet at an end of the half
+/// circle are further apart from one grid to the other than others, as the root of what these differ by: there all of
+/// the fine grid are looked at.
 std::vector<std::pair<double, Eigenpair>> on_fine_grid(const GainOnCircle& gain, const std::vector<NearAxis>& nearest,
                                                        double depth_m) {
   std::vector<std::pair<double, Eigenpair>> found;

@@ -56,6 +56,7 @@ double open_by_depth(const FittedStructure& structure, const CutAtSpeed& cut, co
   if (!row.crossings.empty()) {
     LobePoint first = row.crossings.front();
     follow_to_lines(structure, cut, first);
+    if (!std::isfinite(first.depth_m * first.error_estimate)) return 1.0;  // a comparison would pass it over
     const bool first_order_fails = first.error_estimate >= 1.0 && structure.without.empty();
     if (!first_order_fails) least_m = std::min(least_m, first.depth_m * (1.0 - first.error_estimate));
   }

@@ -29,8 +29,8 @@ struct Plate {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();
 };
 
-/// Takes the regions of one thickness t whose modes are densest, the area A together the largest share of t, in place
-/// of a plate with sparser ones: the lowest modes are theirs. Zones count whole, though later ones may cover them.
+/// Takes the regions of one thickness, t, with the area A together, whose modes are densest (t/A is least) in place of
+/// a plate with sparser ones: the lowest modes are theirs. Zones count whole, though later ones may cover them.
 void take_densest_floor(const mesh::Prism& prism, Plate& plate) {
   struct Region {
     double thickness_m, area_m2;

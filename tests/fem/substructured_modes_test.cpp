@@ -62,7 +62,7 @@ TEST(SubstructuredModes, ModesOfAPartAreFoundByThemAndTold) {
   EXPECT_THROW((void)modes(model, factored, {.count = 20, .substructures = 6}), core::InputError);
 }
 
-/// What was told while the body ran.
+/// The messages that were told while the body ran.
 template <class Body>
 std::vector<std::string> told_by(const Body& body) {
   std::vector<std::string> told;
