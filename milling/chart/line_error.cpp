@@ -31,6 +31,33 @@ bool on_one_lobe(const LobeRow& a, const LobeRow& b, double periods_per_turn) {
   return a.kind == b.kind && lobe(a) == lobe(b) && std::abs(f - g) <= step * std::max(f, g);
 }
 
+/// True if the lobe of two rows goes on as another crossing of the next row than its first: one whose chatter frequency
+/// is nearer by half to where the two rows point. Modes beside each other have lobes of one ⌊f_c T⌋ whose frequencies
+/// differ by less than those of neighbouring speeds.
+bool goes_on_above(const LobeRow& before, const LobeRow& row, const LobeRow& next) {
+  if (row.kind != Bifurcation::hopf || next.at_limit) return false;
+  const double share =
+      (next.spindle_speed_rpm - row.spindle_speed_rpm) / (row.spindle_speed_rpm - before.spindle_speed_rpm);
+  const double expected = row.chatter_frequency_hz + share * (row.chatter_frequency_hz - before.chatter_frequency_hz);
+  const double first = std::abs(next.chatter_frequency_hz - expected);
+  return std::ranges::any_of(next.crossings, [&](const LobePoint& other) {
+    return other.kind == Bifurcation::hopf && other.depth_m > next.limiting_depth_m &&
+           std::abs(other.chatter_frequency_hz - expected) < 0.5 * first;
+  });
+}
+
+/// For each gap, true if both rows lie on one lobe.
+std::vector<bool> joined_rows(const std::vector<LobeRow>& rows, double periods_per_turn) {
+  std::vector<bool> alike(rows.size() - 1);
+  for (std::size_t i = 0; i < alike.size(); ++i) alike[i] = on_one_lobe(rows[i], rows[i + 1], periods_per_turn);
+  std::vector<bool> joined = alike;
+  for (std::size_t i = 0; i < alike.size(); ++i) {
+    if (i > 0 && alike[i - 1] && goes_on_above(rows[i - 1], rows[i], rows[i + 1])) joined[i] = false;
+    if (i + 1 < alike.size() && alike[i + 1] && goes_on_above(rows[i + 2], rows[i + 1], rows[i])) joined[i] = false;
+  }
+  return joined;
+}
+
 using Value = double (*)(const LobeRow&);
 
 double depth(const LobeRow& row) {
@@ -181,9 +208,9 @@ void add_corner(const Around& at, LineGap& gap) {
 
 std::vector<LineGap> line_gaps(const std::vector<LobeRow>& rows, const MillingProcess& process, double narrow) {
   const double periods = process.cutter.pitches_rad.empty() ? process.cutter.teeth : 1.0;
-  std::vector<LineGap> gaps(rows.empty() ? 0 : rows.size() - 1);
-  std::vector<bool> joined(gaps.size());
-  for (std::size_t i = 0; i < gaps.size(); ++i) joined[i] = on_one_lobe(rows[i], rows[i + 1], periods);
+  if (rows.empty()) return {};
+  std::vector<LineGap> gaps(rows.size() - 1);
+  const std::vector<bool> joined = joined_rows(rows, periods);
   for (std::size_t i = 0; i < gaps.size(); ++i) {
     LineGap& gap = gaps[i];
     const LobeRow &left = rows[i], &right = rows[i + 1];

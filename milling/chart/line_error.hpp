@@ -26,8 +26,9 @@ constexpr double narrow_gap_by_lines = 1e-4;
 /// A flip lobe that is narrower than this share of the speed is not searched for: no spindle holds its speed better.
 constexpr double narrow_flip_lobe = 1e-3;
 
-/// The gaps of a chart. Where both rows lie on one lobe (the kind of the instability and ⌊f_c T⌋ are equal and f_c
-/// hardly differs; T the period of the cut) the boundary within is smooth, and a chord of width h is off by
+/// The gaps of a chart. Where both rows lie on one lobe (the kind of the instability and ⌊f_c T⌋ are equal, f_c hardly
+/// differs, and the lobe of two rows on one side does not go on as a deeper crossing of the row on the other; T the
+/// period of the cut) the boundary within is smooth, and a chord of width h is off by
 ///
 ///     e = 2 |w[n_i−1, n_i, n_i+1]| h²/4 / √(w_i w_i+1)
 ///

@@ -141,6 +141,30 @@ TEST(RefinedLine, SeesThePeakOfALobeThatBendsUpwardsBeforeItsCorner) {
 }
 
 // Between 5050 and 5100 rpm the multipliers of the Hopf lobe pass -1, and a flip lobe of ten rpm lies there.
+/// Two modes beside each other: lobes of one ⌊f_c T⌋ whose boundaries cross at 4000 rpm, and the rows know both.
+LobeRow row_of_two_modes(double rpm) {
+  const double x = (rpm - 4000.0) / 4000.0;
+  LobeRow row;
+  row.spindle_speed_rpm = rpm;
+  row.crossings = {{1e-3 * (1.0 + 8.0 * x), 2070.0 * (1.0 + 0.8 * x), Bifurcation::hopf, 2, 1e-9},
+                   {1e-3 * (1.0 - 8.0 * x), 2080.0 * (1.0 + 0.8 * x), Bifurcation::hopf, 2, 1e-9}};
+  std::ranges::sort(row.crossings, {}, &LobePoint::depth_m);
+  take_limit_from_crossings(row);
+  return row;
+}
+
+TEST(RefinedLine, SeesTheCornerOfTwoLobesOfNearlyEqualFrequencies) {
+  MillingProcess process = two_teeth();
+  process.cutter.teeth = 1;
+  std::vector<LobeRow> rows;
+  for (const double rpm : {3955.0, 3985.0, 4015.0, 4045.0}) rows.push_back(row_of_two_modes(rpm));
+  const LineGap gap = line_gaps(rows, process)[1];
+  const double chord = row_of_two_modes(3985.0).limiting_depth_m;  // equal at both ends
+  EXPECT_TRUE(gap.corner);
+  EXPECT_GE(gap.error, 1.0 - chord / row_of_two_modes(4000.0).limiting_depth_m);
+  EXPECT_NEAR(gap.corner_rpm, 4000.0, 1.0);
+}
+
 TEST(RefinedLine, SeesAFlipLobeThatLiesBetweenTwoSpeedsOnAHopfLobe) {
   const MillingProcess process = testing::benchmark_process(0.5);
   const RelativeStructure structure =
