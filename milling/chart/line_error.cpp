@@ -46,14 +46,18 @@ bool goes_on_above(const LobeRow& before, const LobeRow& row, const LobeRow& nex
   });
 }
 
-/// For each gap, true if both rows lie on one lobe.
+/// For each gap, true if both rows lie on one lobe. The rows of either side tell that it goes on as a deeper crossing;
+/// where both sides can tell, both must, because two rows on the sides of another such corner point anywhere.
 std::vector<bool> joined_rows(const std::vector<LobeRow>& rows, double periods_per_turn) {
   std::vector<bool> alike(rows.size() - 1);
   for (std::size_t i = 0; i < alike.size(); ++i) alike[i] = on_one_lobe(rows[i], rows[i + 1], periods_per_turn);
   std::vector<bool> joined = alike;
   for (std::size_t i = 0; i < alike.size(); ++i) {
-    if (i > 0 && alike[i - 1] && goes_on_above(rows[i - 1], rows[i], rows[i + 1])) joined[i] = false;
-    if (i + 1 < alike.size() && alike[i + 1] && goes_on_above(rows[i + 2], rows[i + 1], rows[i])) joined[i] = false;
+    const bool left_tells = i > 0 && alike[i - 1], right_tells = i + 1 < alike.size() && alike[i + 1];
+    const bool parts = (left_tells || right_tells) &&
+                       (!left_tells || goes_on_above(rows[i - 1], rows[i], rows[i + 1])) &&
+                       (!right_tells || goes_on_above(rows[i + 2], rows[i + 1], rows[i]));
+    if (parts) joined[i] = false;
   }
   return joined;
 }
@@ -194,12 +198,21 @@ void add_corner(const Around& at, LineGap& gap) {
   if (!known) return;
   const double h = width(at);
   const Continued left = continued(*at.left, at.before, at.farther_before);
-  const std::optional<double> x = corner_of(left, continued(*at.right, at.after, at.farther_after), h);
-  if (!x) return;
+  const Continued right = continued(*at.right, at.after, at.farther_after);
+  const double rise = std::abs(std::log(depth(*at.left) / depth(*at.right)));
+  const std::optional<double> x = corner_of(left, right, h);
+  if (!x) {
+    // Lobes that run nearly side by side do not meet as far as their rows tell: where each goes on close to the
+    // other's row, so does the boundary.
+    if (!(left.at(h) > 0.0 && right.at(h) > 0.0)) return;
+    const double beside =
+        std::max(std::abs(1.0 - left.at(h) * depth(*at.right)), std::abs(1.0 - right.at(h) * depth(*at.left)));
+    gap.error = std::max(safety * beside, unseen * rise);
+    return;
+  }
   const double top = 1.0 / left.at(*x);
   if (!(top > 0.0)) return;
   gap.error = safety * std::abs(1.0 - (depth(*at.left) + slope(*at.left, *at.right) * *x) / top);
-  const double rise = std::abs(std::log(depth(*at.left) / depth(*at.right)));
   if (unseen * rise > gap.error) gap.error = unseen * rise;
   else gap.corner_rpm = at.left->spindle_speed_rpm + std::clamp(*x / h, 0.1, 0.9) * h;
 }

@@ -34,7 +34,8 @@ constexpr double narrow_flip_lobe = 1e-3;
 ///
 /// with the larger of the divided differences of both sides, doubled for what it changes within the gap. Where two
 /// lobes meet the boundary is the lower of them, and each is continued into the gap, in 1/w by the parabola of three of
-/// its rows, or by its last chord where it has two. A gap beside which a lobe has one row only tells nothing: the error
+/// its rows, or by its last chord where it has two; where they do not meet the error is twice the distance of the
+/// continuations from each other's row. A gap beside which a lobe has one row only tells nothing: the error
 /// is infinite. Where f_c T of a Hopf lobe, or of the least stable motion at the depth limit, passes a whole number and
 /// a half, a pair of multipliers passes −1 and a flip lobe may lie within (strong resonance 1:2; Kuznetsov, Elements of
 /// Applied Bifurcation Theory, 2004, section 9.5.3): the error of such a gap is infinite, too, unless it is narrower
