@@ -18,17 +18,21 @@ double periods_of(const LobeRow& row, double periods_per_turn) {
   return 60.0 * row.chatter_frequency_hz / (periods_per_turn * row.spindle_speed_rpm);
 }
 
+/// True if two rows may show one motion: both at the depth limit or neither, with one kind and nearly one frequency.
+bool alike(const LobeRow& a, const LobeRow& b) {
+  constexpr double step = 0.05;
+  const double f = a.chatter_frequency_hz, g = b.chatter_frequency_hz;
+  return a.at_limit == b.at_limit && a.kind == b.kind && std::abs(f - g) <= step * std::max(f, g);
+}
+
 /// True if the boundary runs smoothly from one row to the other; of two rows at the depth limit, if it is one motion
 /// that decays least.
 bool on_one_lobe(const LobeRow& a, const LobeRow& b, double periods_per_turn) {
-  constexpr double step = 0.05;
-  if (a.at_limit != b.at_limit) return false;
   const auto lobe = [&](const LobeRow& row) {
     const double periods = periods_of(row, periods_per_turn);
     return row.kind == Bifurcation::fold ? std::round(periods) : std::floor(periods);  // of a fold it is a whole number
   };
-  const double f = a.chatter_frequency_hz, g = b.chatter_frequency_hz;
-  return a.kind == b.kind && lobe(a) == lobe(b) && std::abs(f - g) <= step * std::max(f, g);
+  return alike(a, b) && lobe(a) == lobe(b);
 }
 
 /// True if the lobe of two rows goes on as another crossing of the next row than its first: one whose chatter frequency
@@ -49,11 +53,11 @@ bool goes_on_above(const LobeRow& before, const LobeRow& row, const LobeRow& nex
 /// For each gap, true if both rows lie on one lobe. The rows of either side tell that it goes on as a deeper crossing;
 /// where both sides can tell, both must, because two rows on the sides of another such corner point anywhere.
 std::vector<bool> joined_rows(const std::vector<LobeRow>& rows, double periods_per_turn) {
-  std::vector<bool> alike(rows.size() - 1);
-  for (std::size_t i = 0; i < alike.size(); ++i) alike[i] = on_one_lobe(rows[i], rows[i + 1], periods_per_turn);
-  std::vector<bool> joined = alike;
-  for (std::size_t i = 0; i < alike.size(); ++i) {
-    const bool left_tells = i > 0 && alike[i - 1], right_tells = i + 1 < alike.size() && alike[i + 1];
+  std::vector<bool> one(rows.size() - 1);
+  for (std::size_t i = 0; i < one.size(); ++i) one[i] = on_one_lobe(rows[i], rows[i + 1], periods_per_turn);
+  std::vector<bool> joined = one;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    const bool left_tells = i > 0 && one[i - 1], right_tells = i + 1 < one.size() && one[i + 1];
     const bool parts = (left_tells || right_tells) &&
                        (!left_tells || goes_on_above(rows[i - 1], rows[i], rows[i + 1])) &&
                        (!right_tells || goes_on_above(rows[i + 2], rows[i + 1], rows[i]));
@@ -126,16 +130,18 @@ double smooth_error(const Around& at) {
   return distance_from_chord(at, depth) / std::sqrt(depth(*at.left) * depth(*at.right));
 }
 
-/// The share of the gap between two rows of one lobe, or of one motion at the depth limit, at which its pair of
-/// multipliers passes −1 (at the limit: the real axis left of 0): where f_c T is a whole number and a half; none if it
-/// does not. There the two are equal and real, so that beside this speed one of them alone may leave the unit circle
-/// sooner: a flip lobe begins and ends within the gap although both rows show the same motion.
-std::optional<double> passage_of_flip(const LobeRow& left, const LobeRow& right, double periods_per_turn) {
-  if (left.kind != Bifurcation::hopf) return std::nullopt;
-  if (right.spindle_speed_rpm <= left.spindle_speed_rpm * (1.0 + narrow_flip_lobe)) return std::nullopt;
+/// The share of the gap between two rows of one motion, at its crossing or at the depth limit, at which its pair of
+/// multipliers passes −1 or +1 (at the limit: the real axis): where 2 f_c T is a whole number; none if it does not.
+/// There the two are equal and real, so that beside this speed one of them alone may leave the unit circle sooner: a
+/// flip or fold lobe begins and ends within the gap although both rows show the same motion.
+std::optional<double> passage_of_real_axis(const LobeRow& left, const LobeRow& right, double periods_per_turn) {
+  constexpr double one_motion = 0.5;  // periods: lobes of two motions differ by more as a rule
+  if (left.kind != Bifurcation::hopf || !alike(left, right)) return std::nullopt;
+  if (right.spindle_speed_rpm <= left.spindle_speed_rpm * (1.0 + narrow_real_lobe)) return std::nullopt;
   const double a = periods_of(left, periods_per_turn), b = periods_of(right, periods_per_turn);
-  const double half = std::floor(a) + 0.5;
-  if ((a - half) * (b - half) > 0.0 || a == b) return std::nullopt;
+  if (!on_one_lobe(left, right, periods_per_turn) && std::abs(a - b) >= one_motion) return std::nullopt;
+  const double half = 0.5 * std::ceil(2.0 * std::min(a, b));
+  if (half > std::max(a, b) || a == b) return std::nullopt;
   return std::clamp((half - a) / (b - a), 0.05, 0.95);
 }
 
@@ -232,10 +238,9 @@ std::vector<LineGap> line_gaps(const std::vector<LobeRow>& rows, const MillingPr
     gap.corner = !joined[i];
     if (right.spindle_speed_rpm <= left.spindle_speed_rpm * (1.0 + narrow)) continue;
     const Around at = around(rows, joined, i);
-    const std::optional<double> flip = gap.corner ? std::nullopt : passage_of_flip(left, right, periods);
-    if (flip) {
+    if (const std::optional<double> passage = passage_of_real_axis(left, right, periods)) {
       gap.error = unknown;
-      gap.corner_rpm = left.spindle_speed_rpm + *flip * width(at);
+      gap.corner_rpm = left.spindle_speed_rpm + *passage * width(at);
     } else if (left.at_limit && right.at_limit) gap.error = may_hide_lobe(at, joined[i]) ? unknown : 0.0;
     else if (gap.corner) add_corner(at, gap);
     else gap.error = smooth_error(at);

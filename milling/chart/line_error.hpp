@@ -23,8 +23,9 @@ constexpr double narrow_gap = 1e-5;
 /// well.
 constexpr double narrow_gap_by_lines = 1e-4;
 
-/// A flip lobe that is narrower than this share of the speed is not searched for: no spindle holds its speed better.
-constexpr double narrow_flip_lobe = 1e-3;
+/// A flip or fold lobe that is narrower than this share of the speed is not searched for: no spindle holds its speed
+/// better.
+constexpr double narrow_real_lobe = 1e-3;
 
 /// The gaps of a chart. Where both rows lie on one lobe (the kind of the instability and ⌊f_c T⌋ are equal, f_c hardly
 /// differs, and the lobe of two rows on one side does not go on as a deeper crossing of the row on the other; T the
@@ -36,11 +37,11 @@ constexpr double narrow_flip_lobe = 1e-3;
 /// lobes meet the boundary is the lower of them, and each is continued into the gap, in 1/w by the parabola of three of
 /// its rows, or by its last chord where it has two; where they do not meet the error is twice the distance of the
 /// continuations from each other's row. A gap beside which a lobe has one row only tells nothing: the error
-/// is infinite. Where f_c T of a Hopf lobe, or of the least stable motion at the depth limit, passes a whole number and
-/// a half, a pair of multipliers passes −1 and a flip lobe may lie within (strong resonance 1:2; Kuznetsov, Elements of
-/// Applied Bifurcation Theory, 2004, section 9.5.3): the error of such a gap is infinite, too, unless it is narrower
-/// than `narrow_flip_lobe`, and its corner is that passage, linearly between the rows. The error is 0 of a gap
-/// that is narrower than the share `narrow`. `rows` by rising speed. Cost O(rows).
+/// is infinite. Where 2 f_c T of a Hopf lobe, or of the least stable motion at the depth limit, passes a whole number,
+/// a pair of multipliers passes −1 or +1 and a flip or fold lobe may lie within (strong resonances 1:2 and 1:1;
+/// Kuznetsov, Elements of Applied Bifurcation Theory, 2004, sections 9.5.2 and 9.5.3): the error of such a gap is
+/// infinite, too, unless it is narrower than `narrow_real_lobe`, and its corner is that passage, linearly between the
+/// rows. The error is 0 of a gap that is narrower than the share `narrow`. `rows` by rising speed. Cost O(rows).
 [[nodiscard]] std::vector<LineGap> line_gaps(const std::vector<LobeRow>& rows, const MillingProcess& process,
                                              double narrow = narrow_gap);
 

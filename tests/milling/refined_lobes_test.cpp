@@ -183,6 +183,29 @@ TEST(RefinedLine, SeesAFlipLobeThatLiesBetweenTwoSpeedsOnAHopfLobe) {
   EXPECT_LT(std::ranges::max(distances(chart, row_at, options, spindle_speeds(5000.5, 5199.5, 200))), 0.03);
 }
 
+TEST(RefinedLine, SeesAFoldLobeThatLiesBetweenTwoSpeedsOnAHopfLobe) {
+  // The chatter frequency passes seven times that of the turns at 5300 rpm; within 15 rpm of it a fold cuts 10 % off.
+  const auto row_at = [](double rpm, const StabilityOptions&) {
+    LobeRow row;
+    row.spindle_speed_rpm = rpm;
+    row.limiting_depth_m = 1e-3 - 1e-7 * (rpm - 5300.0);
+    row.chatter_frequency_hz = 7.0 * 5300.0 / 60.0 + 0.02 * (rpm - 5300.0);
+    if (std::abs(rpm - 5300.0) < 15.0) {
+      row.limiting_depth_m *= 0.9;
+      row.chatter_frequency_hz = 7.0 * rpm / 60.0;
+      row.kind = Bifurcation::fold;
+    }
+    return row;
+  };
+  MillingProcess process = two_teeth();
+  process.cutter.teeth = 1;
+  const StabilityOptions options;
+  const Lobes chart = refined(even_chart(5040.0, 5740.0, 8, row_at, options), row_at, process, options, {});
+  EXPECT_NEAR(line_at(chart, 5290.0), row_at(5290.0, options).limiting_depth_m, 2e-2 * 1e-3);
+  EXPECT_NEAR(line_at(chart, 5310.0), row_at(5310.0, options).limiting_depth_m, 2e-2 * 1e-3);
+  EXPECT_TRUE(chart.line->met);
+}
+
 TEST(RefinedLine, GoesThroughTheSpeedsThatAreAsked) {
   const Lobes without = closed_form_chart({});
   const double within = without.rows[7].spindle_speed_rpm + 1.0;
