@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/units.hpp"
+#include "mesh/surface/placed_triangle.hpp"
 
 namespace thinwall::mesh {
 
@@ -28,17 +29,7 @@ using Face = Mesh::Face_index;
 constexpr double too_long = 1.4142135623730951;
 constexpr double too_short = 0.7;
 constexpr int rounds = 8;
-constexpr double smallest_shape = 1e-4;    // area / (longest edge)² of a triangle that still has a direction
-constexpr double cosine_of_turn = 0.7071;  // new triangles stay within 45° of the surface
-constexpr double better = 1e-3;            // least gain in quality of a flip or a move
-
-/// A vertex as a point of one of its patches.
-struct Place {
-  int patch = -1;
-  Eigen::Vector3d x = Eigen::Vector3d::Zero();
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  Eigen::VectorXd wanted;  // coordinates in the space of wanted edges
-};
+constexpr double better = 1e-3;  // least gain in quality of a flip or a move
 
 /// The surface during remeshing, with its patches and lines.
 struct Work {
@@ -58,26 +49,12 @@ struct Work {
         places(mesh.add_property_map<Vertex, std::list<Place>>("v:places").first) {}
 };
 
-/// The place of x on a patch.
-Place make_place(const SizeSpace& space, int patch, const Eigen::Vector3d& x) {
-  Place place{patch, x, space.normal(patch, x), {}};
-  place.wanted = space.at(patch, x, place.normal);
-  return place;
-}
-
 /// The place of a vertex on a patch, which is kept, and the reference valid, until the vertex moves.
 const Place& place_of(Work& work, Vertex v, int patch) {
   auto& known = work.places[v];
   for (const Place& place : known)
     if (place.patch == patch) return place;
   return known.emplace_back(make_place(work.space, patch, work.mesh.point(v)));
-}
-
-/// Number of wanted edges between two places. It is measured in two halves, because the middle of an edge from border
-/// to border lies outside the layers, while its ends have equal coordinates in them.
-double length(const SizeSpace& space, const Place& a, const Place& b) {
-  const Eigen::VectorXd middle = space.at(a.patch, 0.5 * (a.x + b.x), 0.5 * (a.normal + b.normal));
-  return (middle - a.wanted).norm() + (b.wanted - middle).norm();
 }
 
 /// The patches on the two sides of an edge.
@@ -96,37 +73,6 @@ std::pair<double, int> longest(Work& work, Edge e) {
     result = std::max(result, {length(work.space, place_of(work, a, patch), place_of(work, b, patch)), patch});
   }
   return result;
-}
-
-/// The quality of a triangle in wanted edges: 1 if all three are equal, 0 for a triangle without area (4√3 A / Σ l²; A
-/// by Heron's formula).
-double quality(const SizeSpace& space, const Place& a, const Place& b, const Place& c) {
-  const double x = length(space, b, c);
-  const double y = length(space, c, a);
-  const double z = length(space, a, b);
-  const double squares = (x + y + z) * (-x + y + z) * (x - y + z) * (x + y - z);
-  return std::sqrt(3.0 * std::max(0.0, squares)) / (x * x + y * y + z * z);
-}
-
-/// True if the triangle has an area and turns no more than 45° from the surface's normals at its corners.
-bool faces_outwards(const Place& a, const Place& b, const Place& c) {
-  const Eigen::Vector3d area = 0.5 * (b.x - a.x).cross(c.x - a.x);
-  const double squared = std::max({(b.x - a.x).squaredNorm(), (c.x - b.x).squaredNorm(), (a.x - c.x).squaredNorm()});
-  if (!(area.norm() > smallest_shape * squared)) return false;
-  return area.dot(a.normal + b.normal + c.normal) > cosine_of_turn * area.norm() * 3.0;
-}
-
-/// True if x lies within the allowed deviation of the patch.
-bool lies_on(const SizeSpace& space, int patch, const Eigen::Vector3d& x) {
-  return space.is_planar(patch) || (space.on_patch(patch, x) - x).norm() <= space.allowed_deviation_m(patch);
-}
-
-/// True if the triangle represents its piece of the patch: its orientation fits, and its centre and the middles of its
-/// edges lie near the patch.
-bool is_faithful(const SizeSpace& space, const Place& a, const Place& b, const Place& c) {
-  return faces_outwards(a, b, c) && lies_on(space, a.patch, (a.x + b.x + c.x) / 3.0) &&
-         lies_on(space, a.patch, 0.5 * (a.x + b.x)) && lies_on(space, a.patch, 0.5 * (b.x + c.x)) &&
-         lies_on(space, a.patch, 0.5 * (c.x + a.x));
 }
 
 /// The sharp edges at a vertex, as halfedges that point to it.
