@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
 
 #include "milling/chart/near_crossing.hpp"
@@ -26,14 +27,21 @@ std::optional<MillingProcess> with_long_edges(MillingProcess process, double lim
   return process;
 }
 
+/// follow_to_lines() with the error of what rows by other fits do not tell: of the remainder, of modes above the lines.
+void follow_without_other_fits(FittedStructure structure, const CutAtSpeed& cut, LobePoint& point) {
+  structure.even = structure.odd = structure.within = structure.all;
+  follow_to_lines(structure, cut, point);
+}
+
 /// By how much of the depth limit a row that is stable up to there may be unstable below it,
 ///
 ///     1 − min(w (1 − e), w − 2 max |w − w_half|)/limit,
 ///
 /// with the depth w of the first crossing beyond and its estimate e, and that of the fits to every second line, each up
 /// to half as deep again as the limit; a fit without a crossing has that depth. 1 where a row is not known. Beside a
-/// nose, where two eigenvalues nearly meet, e is of first order and may exceed 1 though all fits agree: without noise,
-/// the rows by every second line tell then, and widen_for_near_crossings() what else there is.
+/// nose, where two eigenvalues nearly meet, a crossing that is followed to another fit may be lost, which makes e at
+/// least 1 though the rows of all fits agree. Without noise, rows tell then, that of the modes within the lines, too,
+/// and e holds what they do not.
 double open_by_depth(const FittedStructure& structure, const CutAtSpeed& cut, const StabilityOptions& options) {
   StabilityOptions beyond = options;
   beyond.depth_limit_m *= looked_at;
@@ -48,17 +56,24 @@ double open_by_depth(const FittedStructure& structure, const CutAtSpeed& cut, co
   if (!known(row)) return 1.0;
   const double by_all_m = row.limiting_depth_m;
   double least_m = by_all_m;
-  for (const Fit* half : {&structure.even, &structure.odd}) {
-    const LobeRow by_half = row_by(*half);
-    if (!known(by_half)) return 1.0;
-    least_m = std::min(least_m, by_all_m - 2.0 * std::abs(by_all_m - by_half.limiting_depth_m));
-  }
+  const auto all_known = [&](std::initializer_list<const Fit*> fits, double times) {
+    for (const Fit* fit : fits) {
+      const LobeRow other = row_by(*fit);
+      if (!known(other)) return false;
+      least_m = std::min(least_m, by_all_m - times * std::abs(by_all_m - other.limiting_depth_m));
+    }
+    return true;
+  };
+  if (!all_known({&structure.even, &structure.odd}, 2.0)) return 1.0;
   if (!row.crossings.empty()) {
     LobePoint first = row.crossings.front();
     follow_to_lines(structure, cut, first);
+    if (first.error_estimate >= 1.0 && structure.without.empty()) {
+      if (!all_known({&structure.within}, 1.0)) return 1.0;
+      follow_without_other_fits(structure, cut, first = row.crossings.front());
+    }
     if (!std::isfinite(first.depth_m * first.error_estimate)) return 1.0;  // a comparison would pass it over
-    const bool first_order_fails = first.error_estimate >= 1.0 && structure.without.empty();
-    if (!first_order_fails) least_m = std::min(least_m, first.depth_m * (1.0 - first.error_estimate));
+    least_m = std::min(least_m, first.depth_m * (1.0 - first.error_estimate));
   }
   return 1.0 - least_m / options.depth_limit_m;
 }

@@ -7,7 +7,9 @@
 #include <complex>
 
 #include "flip_lobes.hpp"
+#include "milling/chart/near_crossing.hpp"
 #include "milling/chart/sampled_stability.hpp"
+#include "milling/direct/cut_at_speed.hpp"
 
 namespace thinwall::milling::row_at_limit_test {
 namespace {
@@ -109,6 +111,51 @@ TEST(RowAtLimit, ARowAtTheDepthLimitWithoutEnoughNodesHasWhatTheLinesLeaveOpenIn
   const LobeRow row = lines.row_up_to(limit_m);
   EXPECT_EQ(row.status, StabilityStatus::node_limit_reached);
   EXPECT_GT(row.error_estimate, 0.9 * (1.0 - lines.reached_m / limit_m));
+}
+
+/// A structure without noise whose modes within the lines are a fifth more compliant. Their crossing is at five sixths
+/// of the depth, and is lost when the first one is followed to it, which makes an estimate of 1.
+struct LostCrossing {
+  static constexpr double rpm = 11000.0, more_compliant = 1.2;
+  FlipLobes lobes;
+  FittedStructure fit = fitted_structure({lines_of(lobes.poles, 200.0, 8000.0, 10.0), {}}, lobes.process.frame);
+  double first_m = lobes.row(rpm).limiting_depth_m, within_m = first_m / more_compliant;
+
+  LostCrossing() {
+    fit.within.poles.phi *= more_compliant;
+    fit.within.poles.R *= more_compliant;
+  }
+  /// The row up to a depth, which has no crossing.
+  [[nodiscard]] LobeRow row_up_to(double limit_m) const {
+    StabilityOptions options = first_only();
+    options.depth_limit_m = limit_m;
+    LobeRow row = limiting_depth(fit, lobes.process, rpm, options);
+    EXPECT_TRUE(row.at_limit);
+    return row;
+  }
+};
+
+TEST(RowAtLimit, ACrossingThatIsLostOnTheWayToAnotherFitDoesNotOpenARowBelowTheCrossingsOfAllFits) {
+  const LostCrossing lines;
+  LobePoint first = limiting_depth(lines.fit.all.poles, lines.lobes.process, lines.rpm, first_only()).crossings.at(0);
+  follow_to_lines(lines.fit, cut_at_speed(lines.fit.all.poles, lines.lobes.process, lines.rpm), first);
+  ASSERT_GE(first.error_estimate, 1.0);
+  EXPECT_EQ(lines.row_up_to(0.9 * lines.within_m).status, StabilityStatus::stable_to_depth_limit);
+}
+
+TEST(RowAtLimit, WhereACrossingIsLostTheRowOfTheModesWithinTheLinesTells) {
+  const LostCrossing lines;
+  const double limit_m = 0.9 * lines.first_m;
+  const LobeRow row = lines.row_up_to(limit_m);
+  EXPECT_NE(row.status, StabilityStatus::stable_to_depth_limit);
+  EXPECT_NEAR(row.error_estimate, 1.0 - lines.within_m / limit_m, 1e-3) << "the rows' own tolerance";
+}
+
+// Modes above the lines that may be larger by orders than those within are in no row of a fit.
+TEST(RowAtLimit, WhereACrossingIsLostModesAboveTheLinesStillOpenTheRow) {
+  LostCrossing lines;
+  lines.fit.unseen.setIdentity();  // m/N
+  EXPECT_EQ(lines.row_up_to(0.9 * lines.within_m).status, StabilityStatus::data_insufficient);
 }
 
 // A pole that grows adds unstable multipliers that belong to no crossing.
