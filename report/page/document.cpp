@@ -67,11 +67,12 @@ std::vector<std::string> chief_points(const Summary& summary) {
 }
 
 json section(const KeptSections& kept, const std::string& name, const std::function<json()>& made) {
-  if (!kept.find) return made();
-  if (const std::string* text = kept.find(name)) return json::parse(*text);
-  json data = made();
-  kept.keep(name, data.dump());
-  return data;
+  const std::string* text = kept.find ? kept.find(name) : nullptr;
+  return text != nullptr ? json::parse(*text) : made();
+}
+
+void keep(const KeptSections& kept, const std::string& name, const json& section) {
+  if (kept.keep && kept.find(name) == nullptr) kept.keep(name, section.dump());
 }
 
 /// The summary as its file has it: bytes that are no UTF-8 are replaced there.
@@ -106,6 +107,8 @@ json run_of(const fs::path& folder, const RunAtHand& at_hand, const KeptSections
       }};
   std::array<json, 4> data;
   core::parallel_for(sections.size(), [&](std::size_t i) { data[i] = sections[i](); });
+  keep(kept, frf, data[0]);  // in one order, so that what is kept has the same bytes whichever was made first
+  keep(kept, "shapes", data[1]);
   for (const json& part : data) run.update(part);
   run["headline"] = headline(summary);
   run["sentences"] = report::sentences(summary);

@@ -12,8 +12,8 @@
 
 namespace thinwall::report {
 
-/// Sections of a run that were made before of the same files, by name ("frf P", "shapes"), as JSON text. Called from
-/// several threads.
+/// Sections of a run that were made before of the same files, by name ("frf P", "shapes"), as JSON text. `find` is
+/// called from several threads, `keep` in the order of the names, so that what is kept has the same bytes each time.
 struct KeptSections {
   std::function<const std::string*(const std::string& name)> find;  ///< null if it is not there
   std::function<void(const std::string& name, const std::string& text)> keep;

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+
 #include "core/error.hpp"
 #include "report/page/case_differences.hpp"
 #include "report/page/page.hpp"
@@ -65,6 +69,27 @@ TEST(Document, NamesTheProgramThatMakesThePageAndThatOfTheRun) {
   EXPECT_EQ(made["program"], "thinwall 9");
   EXPECT_EQ(made["runs"][0]["manifest"]["program"]["version"], "0.0.3");
   EXPECT_FALSE(made["runs"][0]["manifest"].contains("outputs"));
+}
+
+/// Kept files of two runs have the same bytes whatever else the machine does meanwhile. The receptances, which are
+/// first, wait here until something is kept, or a moment.
+TEST(Document, KeepsItsSectionsInOneOrderWhicheverIsMadeFirst) {
+  std::mutex mutex;
+  std::condition_variable something;
+  std::vector<std::string> names;
+  const auto find = [&](const std::string& name) -> const std::string* {
+    std::unique_lock lock(mutex);
+    if (name.starts_with("frf"))
+      something.wait_for(lock, std::chrono::milliseconds(100), [&] { return !names.empty(); });
+    return nullptr;
+  };
+  const auto keep = [&](const std::string& name, const std::string& /*text*/) {
+    const std::lock_guard lock(mutex);
+    names.push_back(name);
+    something.notify_all();
+  };
+  (void)document({.folders = {result_folder("document_kept")}, .program = "thinwall 9", .kept = {find, keep}});
+  EXPECT_EQ(names, (std::vector<std::string>{"frf", "shapes"}));
 }
 
 TEST(Document, HasTheValuesOfTheCaseWithoutNamesOfFiles) {
