@@ -18,6 +18,8 @@
 #include <vector>
 
 #include "core/fields.hpp"
+#include "setup/imported_part.hpp"
+#include "setup/measured_frf.hpp"
 #include "setup/point.hpp"
 #include "setup/robot.hpp"
 
@@ -132,17 +134,49 @@ class InputBytes {
     add(Eigen::Matrix<Scalar, dimension, 1>(box.min()));
     add(Eigen::Matrix<Scalar, dimension, 1>(box.max()));
   }
+  /// Adds a measured FRF without the name of its file, which messages have.
+  void add(const io::MeasuredFrf& frf) {
+    const auto& [axis, H, source, coherence] = frf;
+    add_all(axis, H, coherence);
+  }
+  /// Adds a measured FRF without what is said about its file, by the path that the case gives it.
+  void add(const setup::FrfContent& content) {
+    const auto& [frf, notes, warnings, lines_left_out] = content;
+    add_all(frf, lines_left_out);
+  }
+  /// Adds a part from a file without such words.
+  void add(const setup::ImportedPart& part) {
+    const auto& [surface, mesh, matrices, box, summary, notes] = part;
+    add_all(surface, mesh, matrices, box, summary);
+  }
+  /// Adds a set of nodes, and a mark that tells if it can be used.
+  void add(const mesh::NodeSet& set) {
+    const auto& [name, nodes, fault] = set;
+    add_all(name, nodes, fault.empty());
+  }
+  /// Adds a mesh from a file without such words.
+  void add(const mesh::SolidMesh& solid) {
+    const auto& [tets, nodes, node_labels, element_labels, node_sets, element_sets, midside_offset, least_jacobian,
+                 pieces, coincident_nodes, notices] = solid;
+    add_all(tets, nodes, node_labels, element_labels, node_sets, element_sets, midside_offset, least_jacobian, pieces,
+            coincident_nodes);
+  }
   /// Adds all members of a struct in the order of their declaration.
   template <class Struct>
   requires std::is_class_v<Struct> && std::is_aggregate_v<Struct>
   void add(const Struct& value) {
-    std::apply([this](const auto&... member) { (this->add(member), ...); }, core::fields_of(value));
+    std::apply([this](const auto&... member) { this->add_all(member...); }, core::fields_of(value));
   }
 
   /// The bytes of all that was added.
   [[nodiscard]] const std::string& bytes() const { return bytes_; }
 
  private:
+  template <class... Values>
+  void add_all(const Values&... values) {
+    (add(values), ...);
+  }
+
   std::string bytes_;
 };
 

@@ -4,12 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <set>
 
 #include "setup/data_files.hpp"
 #include "setup/imported_part.hpp"
+#include "setup/measured.hpp"
 #include "study/kept/stage_keys.hpp"
 #include "tests/io/scratch_folder.hpp"
 
@@ -119,6 +121,22 @@ struct Variation {
     };
     (one(Alternatives{}), ...);
   }
+
+  /// All members but some.
+  template <class T>
+  void vary_but(T& value, const std::vector<const void*>& left_out) {
+    const auto one = [&](auto& member) {
+      if (std::ranges::find(left_out, static_cast<const void*>(&member)) == left_out.end()) vary(member);
+    };
+    std::apply([&](auto&... member) { (one(member), ...); }, core::fields_of(value));
+  }
+
+  // The name of a file, and what is said about it, are in no key.
+  void vary(io::MeasuredFrf& frf) { vary_but(frf, {&frf.source}); }
+  void vary(setup::FrfContent& content) { vary_but(content, {&content.notes, &content.warnings}); }
+  void vary(setup::ImportedPart& part) { vary_but(part, {&part.notes}); }
+  void vary(mesh::NodeSet& set) { vary_but(set, {&set.fault}); }
+  void vary(mesh::SolidMesh& solid) { vary_but(solid, {&solid.notices}); }
 
   template <class T>
   void vary(T& value) {
@@ -308,6 +326,50 @@ TEST(InputKey, AFileKeepsItsKeyWhereItsFolderIsNamedOtherwise) {
   shape.file.path = "cases/wall/surface.obj";
   source.part->shape = shape;
   EXPECT_NE(study::structure_key(source), key) << "another format";
+}
+
+/// Two FRFs of a part, and an Abaqus mesh of a set that names a missing node, of which its reader tells: files that the
+/// case names by the path of a folder.
+setup::Setup setup_of_files(const std::filesystem::path& folder) {
+  setup::Setup source = full_setup();
+  for (setup::MeasuredFrf* frf : setup::measured_frfs(source)) {
+    frf->file = folder / "frf.csv";
+    frf->quantity = io::FrfQuantity::receptance;
+    frf->unit = "m/N";
+    frf->frequency_unit = "Hz";
+    frf->variable = frf->frequency_variable = "";
+    frf->from_hz = frf->to_hz = std::nullopt;
+  }
+  setup::MeshShape shape;
+  shape.file.path = folder / "part.inp";
+  shape.file.unit = "mm";
+  source.part->shape = shape;
+  source.part->imported = setup::read_part_file(*source.part);
+  read_anew(source);
+  return source;
+}
+
+TEST_F(InputKeyOfFiles, ACaseKeepsItsKeysWhereItsFolderIsNamedOtherwiseOrCopied) {
+  std::string frf;
+  for (int i = 1; i <= 60; ++i) frf += std::to_string(i) + "," + std::to_string(i % 2 == 0 ? 1e-3 : -2e-3) + ",1e-6\n";
+  const std::string mesh =
+      "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT,TYPE=C3D4,ELSET=E\n1,1,2,3,4\n*NSET,NSET=N\n1,9\n";
+  const auto folder_with_files = [&](const std::string& name) {
+    std::filesystem::create_directories(path(name));
+    write(name + "/frf.csv", frf);
+    return write(name + "/part.inp", mesh).parent_path();
+  };
+  const std::filesystem::path here = folder_with_files("here"), copy = folder_with_files("a_copy");
+  const setup::Setup first = setup_of_files(here);
+  ASSERT_NE(setup::receptance_of(first.tool->measured.front()).source,
+            setup::receptance_of(setup_of_files(copy).tool->measured.front()).source);
+  ASSERT_NE(first.part->imported->notes, setup_of_files(copy).part->imported->notes);
+  for (const auto& folder : {std::filesystem::relative(here), copy}) {
+    const setup::Setup other = setup_of_files(folder);
+    EXPECT_EQ(study::structure_key(other), study::structure_key(first)) << folder;
+    EXPECT_EQ(study::charts_key(other), study::charts_key(first)) << folder;
+    EXPECT_EQ(study::tool_key(other), study::tool_key(first)) << folder;
+  }
 }
 
 TEST(InputKey, ARobotThatFollowsThePathHasAnotherKeyThanOneThatStays) {
