@@ -10,7 +10,7 @@
 
 namespace thinwall::mesh {
 
-/// An axis-aligned bounding-box tree (CGAL AABB_tree) over all or some triangles of a surface, of which it has a copy.
+/// A tree of axis-aligned boxes over all or some triangles of a surface, of which it has a copy, halved at each level.
 /// Queries are const and cost O(log triangles).
 class TriangleTree {
  public:

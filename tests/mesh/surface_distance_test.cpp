@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "core/error.hpp"
+#include "mesh/nearest_point.hpp"
 #include "mesh/polyline.hpp"
 #include "mesh/surface/shapes.hpp"
 #include "mesh/surface/triangle_tree.hpp"
@@ -66,6 +68,43 @@ TEST(TriangleTree, FindsTheNearestPointAndTheFirstWallThatARayMeets) {
   EXPECT_NEAR(tree.first_hit({0.033, 0.021, 0.008}, {0, 0, -1}, -1).value_or(0.0), 0.005, 1e-15);
   EXPECT_NEAR(tree.first_hit(nearest.point, {0, 0, -1}, nearest.triangle).value_or(0.0), 0.003, 1e-15);
   EXPECT_FALSE(tree.first_hit({0.033, 0.021, 0.008}, {0, 0, 1}, -1).has_value());
+}
+
+TEST(TriangleTree, FindsWhatASearchOfAllTrianglesFinds) {
+  const TriangleSurface blade = surface(Blade{}, 0.004);
+  const TriangleTree tree(blade);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> in(-0.06, 0.12);
+  for (int k = 0; k < 300; ++k) {
+    const Eigen::Vector3d x{in(random), in(random), in(random)};
+    EXPECT_NEAR(tree.nearest(x).distance_m, point_to_surface(blade, x).distance_m, 1e-15);
+  }
+}
+
+// A ray from within a closed surface meets it, also at a corner or an edge; within a block it does so there.
+TEST(TriangleTree, LetsNoRayPassBetweenTriangles) {
+  for (const auto& part : {surface(Blade{}, 0.004), block_surface({0.1, 0.06, 0.003}, 0.02)}) {
+    const TriangleTree tree(part);
+    const bool convex = part.triangles.size() < 200;
+    const Eigen::Vector3d from = centroid(part, 0) - 1e-4 * area_vector(part, 0).normalized();
+    for (const auto& t : part.triangles) {
+      const auto corner = [&](std::size_t k) { return part.vertices[static_cast<std::size_t>(t[k % 3])]; };
+      for (std::size_t k = 0; k < 6; ++k) {
+        const Eigen::Vector3d at = k < 3 ? corner(k) : Eigen::Vector3d(0.3 * corner(k) + 0.7 * corner(k + 1));
+        const auto way = tree.first_hit(from, (at - from).normalized(), -1);
+        ASSERT_TRUE(way) << at.transpose();
+        if (convex) {
+          EXPECT_NEAR(*way, (at - from).norm(), 1e-12);
+        }
+      }
+    }
+  }
+}
+
+TEST(TriangleTree, MeetsABlockAlongItsFaces) {
+  const TriangleTree block(block_surface({0.1, 0.06, 0.003}, 0.02));
+  EXPECT_NEAR(block.first_hit({-0.02, 0.02, 0.003}, {1, 0, 0}, -1).value_or(0.0), 0.02, 1e-15);
+  EXPECT_NEAR(block.first_hit({0.05, 0.02, 0.0015}, {0, -1, 0}, -1).value_or(0.0), 0.02, 1e-15);
 }
 
 TEST(Polyline, KeepsThePointsThatItNeeds) {
