@@ -26,6 +26,7 @@ ROWS_500 = f.holes_in_rows(500, 250, 25, 20)
 
 PARTS = [
     part("plates", "plate-eight-holes", f.plate, 300, 200, 12.7, ROWS_8, 10.0, fine=100_000),
+    part("plates", "plate-round-holes", f.plate, 300, 200, 12.7, ROWS_8, 10.0, turn=240, fine=300_000),
     part("plates", "plate-bare", f.plate, 240, 160, 5),
     part("plates", "plate-slots", f.plate, 260, 120, 4, slots=f.holes_in_rows(260, 120, 3, 2)),
     part("plates", "plate-holes-and-slots", f.plate, 320, 180, 8, [(20, 20), (300, 20), (300, 160), (20, 160)], 6.0,

@@ -74,6 +74,10 @@ void check_matrices(const io::MatrixFiles& files, Findings& findings) {
 }
 
 void check_part_file(const setup::PartFile& file, Findings& findings) {
+  if (findings.given("part.file") && file.path.empty()) {
+    findings.report("part.file", "names no file; take a .stl, .step or another surface, or a mesh");
+    return;
+  }
   if (!findings.written("part.shape") && !file.path.empty() && !setup::shape_of_file(file.path)) {
     findings.report(
         "part.file",

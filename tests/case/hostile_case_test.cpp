@@ -139,6 +139,13 @@ TEST(HostileCase, ThePageOfTheCaseFileHasEveryRange) {
   }
 }
 
+TEST(HostileCase, APartOfAnEmptyNameIsNoDataFile) {
+  const std::string part =
+      "[part]\nfile = \"\"\nunit = \"mm\"\n[part.material]\nyoungs_modulus = \"71 GPa\"\npoisson_ratio = 0.33\n"
+      "density = \"2810 kg/m^3\"\n";
+  EXPECT_EQ(refusal(part), "case.toml:2:8: part.file: names no file; take a .stl, .step or another surface, or a mesh");
+}
+
 TEST(HostileCase, APipeOrAFolderIsNoDataFile) {
   const TemporaryFolder folder;
   const auto pipe = folder.path / "pipe.stl";
