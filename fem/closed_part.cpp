@@ -3,15 +3,16 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "mesh/surface/closed_surface.hpp"
+#include "mesh/surface/edge_uses.hpp"
 #include "mesh/surface/smooth_patches.hpp"
 #include "mesh/volume/beneath_curves.hpp"
 #include "mesh/volume/surface_to_volume.hpp"
@@ -118,17 +119,22 @@ std::vector<mesh::SurfaceMeshOptions> attempts_with_chords(const mesh::SurfaceMe
   return result;
 }
 
+/// The mesh of a surface that is known to be closed.
+mesh::SurfaceMeshed filled(const mesh::TriangleSurface& surface, const mesh::SurfaceMeshOptions& options) {
+  return mesh::mesh_closed_surface(surface, options, mesh::volume_meshers(surface, options));
+}
+
 /// The mesh of a level. If a finer level cannot be meshed, the size field of level 0 is used with elements 0.7^level as
 /// large.
 mesh::SurfaceMeshed meshed(const mesh::TriangleSurface& surface, const ClosedPartOptions& options, int level) {
   try {
-    return mesh::mesh_closed_surface(surface, mesh_options(surface, options, level));
+    return filled(surface, mesh_options(surface, options, level));
   } catch (const core::NumericalError&) {
     if (level == 0) throw;
   }
   mesh::SurfaceMeshOptions other = mesh_options(surface, options, 0);
   other.size.scale = std::pow(0.7, level);
-  return mesh::mesh_closed_surface(surface, other);
+  return filled(surface, other);
 }
 
 FirstMesh straight_mesh(const mesh::TriangleSurface& surface, const ClosedPartOptions& options, int level) {
@@ -207,9 +213,8 @@ bool can_be_solved(const mesh::TetMesh& mesh, const ClosedPartOptions& options) 
   return options.largest_dofs == 0 || 3 * mesh::lagrange_node_count(mesh, order) <= options.largest_dofs;
 }
 
-/// The patches of a surface; null if all of them are planar, so that straight elements follow them.
+/// The patches of a closed surface; null if all of them are planar, so that straight elements follow them.
 std::shared_ptr<const mesh::SmoothPatches> curved_patches(const mesh::TriangleSurface& surface) {
-  mesh::require_closed(surface);
   const mesh::SurfaceSize sizes;
   auto patches = std::make_shared<const mesh::SmoothPatches>(mesh::smooth_patches(surface, sizes.sharp_angle_rad));
   return mesh::all_planar(*patches) ? nullptr : patches;
@@ -261,33 +266,34 @@ SolidPart solid_part(const mesh::TriangleSurface& surface, const Material& mater
     const double volume_m3 = is_straight ? mesh::volume(model.mesh) : model.mass.mass_kg / density;
     return std::abs(volume_m3 / wanted - 1.0);
   };
-  const auto curved = options.materials ? nullptr : curved_patches(surface);
-  part.mesh = [&surface, &options, &meshes, curved](int level) {
-    meshes.push_back(
-        level == 0 && options.first
-            ? *options.first
-            : mesh_of_level(surface, curved.get(), level == 0 ? options : of_finer_levels(options, meshes), level));
+  if (!options.first) mesh::require_closed(surface);
+  part.mesh = [&surface, &options, &meshes](int level) {
+    if (level == 0 && options.first) {
+      meshes.push_back(*options.first);
+    } else {
+      const auto curved = options.materials ? nullptr : curved_patches(surface);
+      meshes.push_back(
+          mesh_of_level(surface, curved.get(), level == 0 ? options : of_finer_levels(options, meshes), level));
+    }
     return meshes.back().mesh;
   };
   return part;
 }
 
 bool has_reentrant_edge(const mesh::TriangleSurface& surface) {
-  std::map<std::pair<int, int>, int> along;
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k)
-      along[{surface.triangles[t][k], surface.triangles[t][(k + 1) % 3]}] = static_cast<int>(t);
-  return std::any_of(along.begin(), along.end(), [&](const auto& entry) {
-    const auto [from, to] = entry.first;
-    const auto other = along.find({to, from});
-    if (other == along.end()) return false;
-    const Eigen::Vector3d a = mesh::area_vector(surface, entry.second).normalized();
-    const Eigen::Vector3d b = mesh::area_vector(surface, other->second).normalized();
-    if (a.dot(b) > std::cos(sharp_rad)) return false;
+  bool found = false;
+  mesh::for_each_edge(mesh::sorted_edges(surface.triangles), [&](std::span<const mesh::EdgeUse> both) {
+    if (found || both.size() != 2 || both[0].is_forward == both[1].is_forward) return;
+    const bool first_is_left = both[0].is_forward;
+    const Eigen::Vector3d a = mesh::area_vector(surface, both[first_is_left ? 0 : 1].triangle).normalized();
+    const Eigen::Vector3d b = mesh::area_vector(surface, both[first_is_left ? 1 : 0].triangle).normalized();
+    if (a.dot(b) > std::cos(sharp_rad)) return;
+    const auto& [from, to] = both[0].ends;
     const Eigen::Vector3d way =
         surface.vertices[static_cast<std::size_t>(to)] - surface.vertices[static_cast<std::size_t>(from)];
-    return a.cross(b).dot(way) < 0.0;  // the edge is re-entrant: the other face rises above this one
+    found = a.cross(b).dot(way) < 0.0;  // the edge is re-entrant: the other face rises above this one
   });
+  return found;
 }
 
 namespace {

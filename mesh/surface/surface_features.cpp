@@ -2,8 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 #include <map>
+#include <span>
+#include <vector>
+
+#include "mesh/surface/edge_uses.hpp"
 
 namespace thinwall::mesh {
 
@@ -11,13 +17,19 @@ namespace {
 
 using Edge = std::array<int, 2>;
 
-/// The triangle of each directed edge.
-std::map<Edge, int> triangles_along(const TriangleSurface& surface) {
-  std::map<Edge, int> result;
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const auto& v = surface.triangles[t];
-    for (std::size_t k = 0; k < 3; ++k) result[{v[k], v[(k + 1) % 3]}] = static_cast<int>(t);
-  }
+/// The triangle beyond each edge of each triangle, the edge k from corner k to the next one.
+std::vector<std::array<int, 3>> triangles_beyond(const TriangleSurface& surface, const std::vector<EdgeUse>& uses) {
+  std::vector<std::array<int, 3>> result(surface.triangles.size());
+  for_each_edge(uses, [&](std::span<const EdgeUse> both) {
+    assert(both.size() == 2);
+    for (std::size_t side = 0; side < 2; ++side) {
+      const EdgeUse& use = both[side];
+      const auto& v = surface.triangles[static_cast<std::size_t>(use.triangle)];
+      const int from = use.ends[use.is_forward ? 0 : 1];
+      const std::size_t k = v[0] == from ? 0 : v[1] == from ? 1 : 2;
+      result[static_cast<std::size_t>(use.triangle)][k] = both[1 - side].triangle;
+    }
+  });
   return result;
 }
 
@@ -25,20 +37,21 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// The sharp edges, each once, with the triangles on both sides.
-std::map<Edge, Edge> sharp_edges(const TriangleSurface& surface, const std::map<Edge, int>& along, double angle) {
+/// The sharp edges, each once, with the triangles on both sides, the left one first.
+std::map<Edge, Edge> sharp_edges(const TriangleSurface& surface, const std::vector<EdgeUse>& uses, double angle) {
   std::map<Edge, Edge> result;
-  for (const auto& [edge, left] : along) {
-    if (edge[0] > edge[1]) continue;
-    const int right = along.at({edge[1], edge[0]});
-    if (angle_between(area_vector(surface, left), area_vector(surface, right)) > angle) result[edge] = {left, right};
-  }
+  for_each_edge(uses, [&](std::span<const EdgeUse> both) {
+    const bool first_is_left = both[0].is_forward;
+    const int left = both[first_is_left ? 0 : 1].triangle, right = both[first_is_left ? 1 : 0].triangle;
+    if (angle_between(area_vector(surface, left), area_vector(surface, right)) > angle)
+      result.emplace_hint(result.end(), both[0].ends, Edge{left, right});
+  });
   return result;
 }
 
 /// Numbers the patches by flooding from triangle to triangle over smooth edges; returns how many there are.
-int flood(const TriangleSurface& surface, const std::map<Edge, int>& along, const std::map<Edge, Edge>& sharp,
-          std::vector<int>& patch) {
+int flood(const TriangleSurface& surface, const std::vector<std::array<int, 3>>& beyond,
+          const std::map<Edge, Edge>& sharp, std::vector<int>& patch) {
   patch.assign(surface.triangles.size(), -1);
   int patches = 0;
   for (std::size_t seed = 0; seed < patch.size(); ++seed) {
@@ -46,14 +59,14 @@ int flood(const TriangleSurface& surface, const std::map<Edge, int>& along, cons
     std::vector<int> waiting{static_cast<int>(seed)};
     patch[seed] = patches;
     while (!waiting.empty()) {
-      const auto& v = surface.triangles[static_cast<std::size_t>(waiting.back())];
+      const auto here = static_cast<std::size_t>(waiting.back());
+      const auto& v = surface.triangles[here];
       waiting.pop_back();
       for (std::size_t k = 0; k < 3; ++k) {
-        const int a = v[k];
-        const int b = v[(k + 1) % 3];
-        if (sharp.contains({std::min(a, b), std::max(a, b)})) continue;
-        const int next = along.at({b, a});
+        const int next = beyond[here][k];
         if (patch[static_cast<std::size_t>(next)] >= 0) continue;
+        const int a = v[k], b = v[(k + 1) % 3];
+        if (sharp.contains({std::min(a, b), std::max(a, b)})) continue;
         patch[static_cast<std::size_t>(next)] = patches;
         waiting.push_back(next);
       }
@@ -91,10 +104,10 @@ std::vector<int> walk(int from, int to, const std::vector<std::vector<int>>& nei
 }  // namespace
 
 SurfaceFeatures surface_features(const TriangleSurface& surface, double sharp_angle_rad) {
-  const auto along = triangles_along(surface);
-  const auto sharp = sharp_edges(surface, along, sharp_angle_rad);
+  const std::vector<EdgeUse> uses = sorted_edges(surface.triangles);
+  const auto sharp = sharp_edges(surface, uses, sharp_angle_rad);
   SurfaceFeatures result;
-  result.patches = flood(surface, along, sharp, result.patch_of_triangle);
+  result.patches = flood(surface, triangles_beyond(surface, uses), sharp, result.patch_of_triangle);
   std::vector<std::vector<int>> neighbours(surface.vertices.size());
   for (const auto& [edge, sides] : sharp) {
     neighbours[static_cast<std::size_t>(edge[0])].push_back(edge[1]);

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "core/interrupt.hpp"
+#include "core/parallel.hpp"
 
 namespace thinwall::mesh {
 
@@ -41,12 +41,13 @@ double thickness_beneath(const TriangleSurface& surface, const TriangleTree& tre
 }  // namespace
 
 std::vector<double> wall_thickness(const TriangleSurface& surface, const TriangleTree& tree) {
-  std::vector<double> result;
-  result.reserve(surface.triangles.size());
-  for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
-    core::check_interrupt();
-    result.push_back(thickness_beneath(surface, tree, t));
-  }
+  constexpr std::size_t at_once = 256;
+  const std::size_t count = surface.triangles.size();
+  std::vector<double> result(count);
+  core::parallel_for((count + at_once - 1) / at_once, [&](std::size_t block) {
+    for (std::size_t t = block * at_once; t < std::min(count, (block + 1) * at_once); ++t)
+      result[t] = thickness_beneath(surface, tree, static_cast<int>(t));
+  });
   return result;
 }
 

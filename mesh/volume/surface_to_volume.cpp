@@ -201,7 +201,7 @@ SurfaceMeshed mesh_closed_surface(const TriangleSurface& surface, const SurfaceM
 SurfaceMeshed mesh_closed_surface(const TriangleSurface& surface, const SurfaceMeshOptions& options,
                                   const std::vector<VolumeMesher>& meshers) {
   validate(options);
-  require_closed(surface);
+  require_closed_shell(surface);
   return first_that_works(surface, options, meshers);
 }
 

@@ -73,7 +73,8 @@ struct VolumeMesher {
 /// The mesh of a closed surface of triangles.
 [[nodiscard]] SurfaceMeshed mesh_closed_surface(const TriangleSurface& surface, const SurfaceMeshOptions& options = {});
 
-/// The mesh of a closed surface by the given methods, which are tried in order.
+/// The mesh of a closed surface by the given methods, which are tried in order. The surface must not cross itself,
+/// which is not searched for again (mesh::require_closed_shell()).
 [[nodiscard]] SurfaceMeshed mesh_closed_surface(const TriangleSurface& surface, const SurfaceMeshOptions& options,
                                                 const std::vector<VolumeMesher>& meshers);
 
