@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <map>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -49,24 +50,22 @@ std::map<Edge, Edge> sharp_edges(const TriangleSurface& surface, const std::vect
   return result;
 }
 
-/// Numbers the patches by flooding from triangle to triangle over smooth edges; returns how many there are.
-int flood(const TriangleSurface& surface, const std::vector<std::array<int, 3>>& beyond,
-          const std::map<Edge, Edge>& sharp, std::vector<int>& patch) {
-  patch.assign(surface.triangles.size(), -1);
+/// Numbers the patches by flooding from triangle to triangle but over borders, is_border(triangle, edge of it, triangle
+/// beyond); returns how many there are.
+template <class IsBorder>
+int flood(const std::vector<std::array<int, 3>>& beyond, const IsBorder& is_border, std::vector<int>& patch) {
+  patch.assign(beyond.size(), -1);
   int patches = 0;
   for (std::size_t seed = 0; seed < patch.size(); ++seed) {
     if (patch[seed] >= 0) continue;
     std::vector<int> waiting{static_cast<int>(seed)};
     patch[seed] = patches;
     while (!waiting.empty()) {
-      const auto here = static_cast<std::size_t>(waiting.back());
-      const auto& v = surface.triangles[here];
+      const int here = waiting.back();
       waiting.pop_back();
       for (std::size_t k = 0; k < 3; ++k) {
-        const int next = beyond[here][k];
-        if (patch[static_cast<std::size_t>(next)] >= 0) continue;
-        const int a = v[k], b = v[(k + 1) % 3];
-        if (sharp.contains({std::min(a, b), std::max(a, b)})) continue;
+        const int next = beyond[static_cast<std::size_t>(here)][k];
+        if (patch[static_cast<std::size_t>(next)] >= 0 || is_border(here, k, next)) continue;
         patch[static_cast<std::size_t>(next)] = patches;
         waiting.push_back(next);
       }
@@ -74,6 +73,49 @@ int flood(const TriangleSurface& surface, const std::vector<std::array<int, 3>>&
     ++patches;
   }
   return patches;
+}
+
+/// The patches between sharp edges; returns how many there are.
+int flood_between(const TriangleSurface& surface, const std::vector<std::array<int, 3>>& beyond,
+                  const std::map<Edge, Edge>& sharp, std::vector<int>& patch) {
+  const auto is_sharp = [&](int here, std::size_t k, int) {
+    const auto& v = surface.triangles[static_cast<std::size_t>(here)];
+    const int a = v[k], b = v[(k + 1) % 3];
+    return sharp.contains({std::min(a, b), std::max(a, b)});
+  };
+  return flood(beyond, is_sharp, patch);
+}
+
+/// The planes of which each patch consists, by the number of the plane of each triangle; not more than `most` + 1.
+std::vector<std::set<int>> planes_of(const std::vector<int>& patch, int patches, const std::vector<int>& plane,
+                                     std::size_t most) {
+  std::vector<std::set<int>> result(static_cast<std::size_t>(patches));
+  for (std::size_t t = 0; t < patch.size(); ++t)
+    if (auto& planes = result[static_cast<std::size_t>(patch[t])]; planes.size() <= most) planes.insert(plane[t]);
+  return result;
+}
+
+/// The sharp edges, and the creases of patches that consist of two or three planes: such a patch is no tessellated
+/// curve but has a ridge or a bevel, whose corners elements across it would cut off.
+std::map<Edge, Edge> with_creases(const TriangleSurface& surface, const std::vector<EdgeUse>& uses,
+                                  const std::vector<std::array<int, 3>>& beyond, std::map<Edge, Edge> sharp) {
+  constexpr double plane_rad = 1e-3;
+  constexpr std::size_t most_planes = 3;
+  std::vector<int> patch, plane;
+  const int patches = flood_between(surface, beyond, sharp, patch);
+  const auto is_crease = [&](int here, std::size_t, int next) {
+    return angle_between(area_vector(surface, here), area_vector(surface, next)) > plane_rad;
+  };
+  flood(beyond, is_crease, plane);
+  const auto planes = planes_of(patch, patches, plane, most_planes);
+  for_each_edge(uses, [&](std::span<const EdgeUse> both) {
+    const bool first_is_left = both[0].is_forward;
+    const Edge sides{both[first_is_left ? 0 : 1].triangle, both[first_is_left ? 1 : 0].triangle};
+    const auto left = static_cast<std::size_t>(sides[0]), right = static_cast<std::size_t>(sides[1]);
+    if (patch[left] != patch[right] || plane[left] == plane[right]) return;
+    if (planes[static_cast<std::size_t>(patch[left])].size() <= most_planes) sharp.emplace(both[0].ends, sides);
+  });
+  return sharp;
 }
 
 std::vector<bool> corners(const TriangleSurface& surface, const std::vector<std::vector<int>>& neighbours,
@@ -105,9 +147,10 @@ std::vector<int> walk(int from, int to, const std::vector<std::vector<int>>& nei
 
 SurfaceFeatures surface_features(const TriangleSurface& surface, double sharp_angle_rad) {
   const std::vector<EdgeUse> uses = sorted_edges(surface.triangles);
-  const auto sharp = sharp_edges(surface, uses, sharp_angle_rad);
+  const auto beyond = triangles_beyond(surface, uses);
+  const auto sharp = with_creases(surface, uses, beyond, sharp_edges(surface, uses, sharp_angle_rad));
   SurfaceFeatures result;
-  result.patches = flood(surface, triangles_beyond(surface, uses), sharp, result.patch_of_triangle);
+  result.patches = flood_between(surface, beyond, sharp, result.patch_of_triangle);
   std::vector<std::vector<int>> neighbours(surface.vertices.size());
   for (const auto& [edge, sides] : sharp) {
     neighbours[static_cast<std::size_t>(edge[0])].push_back(edge[1]);

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "mesh/surface/closed_surface.hpp"
 #include "mesh/surface/shapes.hpp"
 #include "mesh/surface/surface_features.hpp"
 
@@ -88,6 +89,24 @@ TEST(SurfaceFeatures, OfABlockAreSixPatchesTwelveLinesEightCorners) {
   EXPECT_EQ(features.patches, 6);
   EXPECT_EQ(features.lines.size(), 12U);
   EXPECT_EQ(std::count(features.is_corner.begin(), features.is_corner.end(), true), 8);
+}
+
+// The ridges of a rhombic bar turn by 17 degrees only, and yet they are no part of a curve.
+TEST(SurfaceFeatures, OfARhombicBarAreItsFourSidesToo) {
+  TriangleSurface bar;
+  for (const double z : {0.0, 0.2})
+    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {0.02, -0.003}, {0.04, 0.0}, {0.02, 0.003}})
+      bar.vertices.emplace_back(x, y, z);
+  bar.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}};
+  for (int k = 0; k < 4; ++k) {
+    const int next = (k + 1) % 4;
+    bar.triangles.push_back({k, next, next + 4});
+    bar.triangles.push_back({k, next + 4, k + 4});
+  }
+  require_closed(bar);
+  const auto features = surface_features(bar, thirty_degrees);
+  EXPECT_EQ(features.patches, 6);
+  EXPECT_EQ(features.lines.size(), 12U);
 }
 
 TEST(SurfaceFeatures, OfACylinderSectorLeaveTheArcsWhole) {
