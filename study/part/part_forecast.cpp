@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -54,32 +55,83 @@ Refinement usual_refinement(double tolerance) {
   return tolerance >= 0.01 ? Refinement{1.0, 0.6, 0.4} : Refinement{};
 }
 
-bool held_by_faces(const PartInput& source) {
-  return !setup::supports_of(source).empty() || !setup::attachments_of(source).clamps.empty();
+/// The vertices of the faces that supports and clamps hold. Throws InputError for one that holds no face.
+std::vector<Eigen::Vector3d> held_vertices(const PartInput& source, const mesh::TetMesh& mesh) {
+  const auto boundary = mesh::boundary(mesh);
+  std::set<int> held;
+  const auto add = [&](const mesh::Region& region, const std::string& name) {
+    for (const mesh::BoundaryTriangle& triangle : mesh::select(mesh, boundary, region, name))
+      held.insert(triangle.vertices.begin(), triangle.vertices.end());
+  };
+  for (const fem::Support& support : setup::supports_of(source)) add(support.region, support.name);
+  for (const fem::ElasticClamp& clamp : setup::attachments_of(source).clamps) add(clamp.region, clamp.name);
+  std::vector<Eigen::Vector3d> at;
+  for (const int vertex : held) at.push_back(mesh.vertices[static_cast<std::size_t>(vertex)]);
+  return at;
+}
+
+/// The largest distance of a vertex, of some hundreds that lie evenly in the list, from what holds the part, m.
+double reach_m(const std::vector<Eigen::Vector3d>& held, const mesh::TetMesh& mesh) {
+  const std::size_t step = 1 + mesh.vertices.size() / 300;
+  double reach = 0.0;
+  for (std::size_t i = 0; i < mesh.vertices.size(); i += step) {
+    double nearest = INFINITY;
+    for (const Eigen::Vector3d& x : held) nearest = std::min(nearest, (mesh.vertices[i] - x).norm());
+    reach = std::max(reach, nearest);
+  }
+  return reach;
+}
+
+/// The mean over the elements of their longest edge, m.
+double mean_edge_m(const mesh::TetMesh& mesh) {
+  double sum = 0.0;
+  for (const auto& tet : mesh.tets) {
+    const auto at = [&](std::size_t i) { return mesh.vertices[static_cast<std::size_t>(tet[i])]; };
+    double longest = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = 0; j < i; ++j) longest = std::max(longest, (at(i) - at(j)).norm());
+    }
+    sum += longest;
+  }
+  return sum / static_cast<double>(mesh.tets.size());
+}
+
+/// The mean thickness 2 V/A of a part with the volume V and the surface A, m.
+double mean_thickness_m(const mesh::TetMesh& mesh) {
+  double area = 0.0;
+  for (const mesh::BoundaryTriangle& triangle : mesh::boundary(mesh)) {
+    const auto at = [&](std::size_t i) { return mesh.vertices[static_cast<std::size_t>(triangle.vertices[i])]; };
+    area += 0.5 * (at(1) - at(0)).cross(at(2) - at(0)).norm();
+  }
+  return 2.0 * mesh::volume(mesh) / area;
+}
+
+/// True of thin walls that swing beside a face that is held as a whole, as ribs of a panel on its base do: in waves as
+/// short as the elements, which take all orders and a finer mesh.
+bool swings_in_short_waves(const std::vector<Eigen::Vector3d>& held, const mesh::TetMesh& mesh) {
+  constexpr double thin = 4.0;  // ribs of four panels have 5 to 9, plates, links and flanges on a face 2.3 to 3.3
+  if (held.empty()) return false;
+  const double reach = reach_m(held, mesh);
+  return reach < mean_edge_m(mesh) && reach > thin * mean_thickness_m(mesh);
 }
 
 /// The time of the solutions that a tolerance usually takes, from the first order on: two of them in any case, the
-/// others within the part's budget.
-double refinement_s(const PartInput& source, const mesh::TetMesh& mesh, int first_order, int last_order) {
+/// others within the part's budget. `held`: held_vertices().
+double refinement_s(const PartInput& source, const std::vector<Eigen::Vector3d>& held, const mesh::TetMesh& mesh,
+                    int first_order, int last_order) {
+  constexpr Refinement of_short_waves{1.0, 1.0, 0.2};
   const setup::Part& part = *source.part;
-  const Refinement usual = usual_refinement(part.mesh.tolerance);
+  const bool short_waves = part.mesh.tolerance < 0.05 && swings_in_short_waves(held, mesh);
+  const Refinement usual = short_waves ? of_short_waves : usual_refinement(part.mesh.tolerance);
   double first = 0.0, further = 0.0;
   for (int order = first_order; order <= last_order; ++order) {
     const int beyond = order - first_order;
     const double share = beyond < 2 ? 1.0 : beyond == 2 ? usual.third : usual.fourth;
     (beyond < 2 ? first : further) += share * solve_s(mesh, order);
   }
-  if (held_by_faces(source)) further += usual.finer * (first + further) * std::pow(3.5, 1.3);
+  if (!held.empty()) further += usual.finer * (first + further) * std::pow(3.5, 1.3);
   const double budget = part.mesh.time_budget.value_or(INFINITY);
   return first + std::min(further, std::max(0.0, budget - first));
-}
-
-void require_faces(const PartInput& source, const mesh::TetMesh& mesh) {
-  const auto boundary = mesh::boundary(mesh);
-  for (const fem::Support& support : setup::supports_of(source))
-    (void)mesh::select(mesh, boundary, support.region, support.name);
-  for (const fem::ElasticClamp& clamp : setup::attachments_of(source).clamps)
-    (void)mesh::select(mesh, boundary, clamp.region, clamp.name);
 }
 
 /// The first order of a refinement to a tolerance that begins on this mesh.
@@ -96,7 +148,7 @@ std::optional<setup::PartSize> forecast(const PartInput& source, const std::shar
   const setup::ShapeKind kind = setup::kind(part);
   if (kind != setup::ShapeKind::surface && kind != setup::ShapeKind::mesh) return {};
   const mesh::TetMesh mesh = first ? first->mesh : coarsest_mesh(source);
-  require_faces(source, mesh);
+  const std::vector<Eigen::Vector3d> held = held_vertices(source, mesh);
   setup::PartSize result;
   result.elements = static_cast<double>(mesh.tets.size());
   const bool to_tolerance = kind == setup::ShapeKind::surface && !part.mesh.element_size;
@@ -106,7 +158,8 @@ std::optional<setup::PartSize> forecast(const PartInput& source, const std::shar
   result.order = std::max(to_tolerance ? 2 : 1, part.mesh.order.value_or(std::max(2, usual)));
   result.dofs = dofs(mesh, result.order);
   const int last = part.mesh.order ? result.order : fem::ClosedPartOptions{}.last_order;
-  result.seconds = to_tolerance ? refinement_s(source, mesh, result.order - 1, last) : solve_s(mesh, result.order);
+  result.seconds =
+      to_tolerance ? refinement_s(source, held, mesh, result.order - 1, last) : solve_s(mesh, result.order);
   if (is_solved_one_order_higher(part, result.order)) result.seconds += solve_s(mesh, result.order + 1);
   return result;
 }

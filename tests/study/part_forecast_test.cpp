@@ -4,12 +4,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
 
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
+#include "fem/closed_part.hpp"
+#include "mesh/tet_mesh.hpp"
 #include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::tests::part_forecast_test {
@@ -78,6 +83,59 @@ TEST(PartForecast, ABodyTakesLongerThanAWallOfAsManyElementsAndMoreUnknowns) {
   ASSERT_NEAR(body.elements / wall.elements, 1.0, 0.05);
   EXPECT_LT(body.dofs, wall.dofs);
   EXPECT_GT(body.seconds, wall.seconds);
+}
+
+/// A row of boxes along x, each of six tetrahedra about its diagonal, m.
+mesh::TetMesh row_of_boxes(int count, const Eigen::Vector3d& size) {
+  mesh::TetMesh mesh;
+  for (int x = 0; x <= count; ++x)
+    for (const int y : {0, 1})
+      for (const int z : {0, 1}) mesh.vertices.emplace_back(size.cwiseProduct(Eigen::Vector3d(x, y, z)));
+  for (int box = 0; box < count; ++box) {
+    std::array<int, 3> axes{4, 2, 1};  // by which the number of a vertex grows along x, y, z
+    std::ranges::sort(axes);
+    do {
+      std::array<int, 4> tet{4 * box};
+      for (std::size_t i = 0; i < 3; ++i) tet[i + 1] = tet[i] + axes[i];
+      mesh.tets.push_back(tet);
+      if (mesh::volume(mesh, static_cast<int>(mesh.tets.size()) - 1) < 0.0)
+        std::swap(mesh.tets.back()[2], mesh.tets.back()[3]);
+    } while (std::ranges::next_permutation(axes).found);
+  }
+  return mesh;
+}
+
+/// Seconds of a part with the surface and the first mesh `mesh` that one of its faces holds.
+double seconds_held_by(const std::string& face, const mesh::TetMesh& mesh) {
+  std::string stl = "solid part\n";
+  for (const mesh::BoundaryTriangle& triangle : mesh::boundary(mesh)) {
+    stl += "facet normal 0 0 0\nouter loop\n";
+    for (const int vertex : triangle.vertices) {
+      const Eigen::Vector3d x = 1e3 * mesh.vertices[static_cast<std::size_t>(vertex)];
+      stl += "vertex " + std::to_string(x.x()) + " " + std::to_string(x.y()) + " " + std::to_string(x.z()) + "\n";
+    }
+    stl += "endloop\nendfacet\n";
+  }
+  const TemporaryFolder folder;
+  core::write_file_atomically(folder.path / "part.stl", stl + "endsolid part\n");
+  const cases::Case source = cases::parse_case(
+      "[part]\nfile = \"part.stl\"\nunit = \"mm\"\n[part.material]\nyoungs_modulus = \"70 GPa\"\npoisson_ratio = 0.3\n"
+      "density = \"2700 kg/m^3\"\n[part.mesh]\ntolerance = 0.02\n[[part.supports]]\non = \"" +
+          face + "\"\n[modes]\ncount = 1\n[damping]\nratio = 0.01\n",
+      folder.path);
+  return study::forecast(study::part_input(source), std::make_shared<fem::FirstMesh>(fem::FirstMesh{mesh, {}}))
+      .value()
+      .seconds;
+}
+
+// A wall that is held along its edge swings in waves of a few times its height, which elements longer than the height
+// resolve by higher orders only; held by its end, farther away than an element is long, it swings in longer ones, and a
+// cube has no wall.
+TEST(PartForecast, AThinWallThatIsLowerThanItsElementsAreLongTakesAllOrders) {
+  const mesh::TetMesh wall = row_of_boxes(2, {0.020, 0.002, 0.012});
+  EXPECT_GT(seconds_held_by("z_min", wall), 3.0 * seconds_held_by("x_min", wall));
+  const mesh::TetMesh cube = row_of_boxes(1, {0.012, 0.012, 0.012});
+  EXPECT_EQ(seconds_held_by("z_min", cube), seconds_held_by("x_min", cube));
 }
 
 }  // namespace
