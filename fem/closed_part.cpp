@@ -261,7 +261,8 @@ SolidPart solid_part(const mesh::TriangleSurface& surface, const Material& mater
         std::ranges::find_if(meshes, [&](const FirstMesh& m) { return m.mesh.tets == mesh.tets && m.shape; });
     return own == meshes.end() ? Shaping{} : shaping_by(own->shape);
   };
-  part.shape_error = [wanted = mesh::volume(surface), density = material.density_kg_m3,
+  const double wanted = options.solid_volume_m3 > 0.0 ? options.solid_volume_m3 : mesh::volume(surface);
+  part.shape_error = [wanted, density = material.density_kg_m3,
                       is_straight = static_cast<bool>(options.materials)](const Model& model) {
     const double volume_m3 = is_straight ? mesh::volume(model.mesh) : model.mass.mass_kg / density;
     return std::abs(volume_m3 / wanted - 1.0);

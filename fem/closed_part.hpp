@@ -48,6 +48,7 @@ struct ClosedPartOptions {
   int first_order = 3;                                         ///< first order of a level; 1 to 5
   int last_order = 6;                                          ///< last order of a level; above first_order, to 6
   int levels = 1;                      ///< number of levels, 1 to 4; each has five times as many elements as the last
+  double solid_volume_m3 = 0.0;        ///< for which the surface stands; 0: its own
   std::int64_t largest_dofs = 400000;  ///< no model with more is solved; 0: no bound
   std::int64_t first_dofs = 150000;    ///< as in ToleranceOptions, so that the first answer takes seconds
   double memory_limit_bytes = 0.0;     ///< limit for a factor; 0: the memory that is left

@@ -15,6 +15,7 @@ namespace thinwall::mesh {
 struct TriangleSoup {
   std::vector<Eigen::Vector3d> points;
   std::vector<std::array<int, 3>> triangles;
+  double solid_volume_m3 = 0.0;  ///< of the solid whose curved faces the triangles stand for; 0: it is not known
 };
 
 /// The points and triangles of a surface as a soup.

@@ -1,8 +1,10 @@
 #include "io/surface/step.hpp"
 
 #include <BRepBndLib.hxx>
+#include <BRepGProp.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <Bnd_Box.hxx>
+#include <GProp_GProps.hxx>
 #include <STEPControl_Reader.hxx>
 #include <Standard_Failure.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
@@ -29,7 +31,8 @@ namespace {
 constexpr double reader_unit_m = 1e-3;  // Open CASCADE converts to millimetres
 constexpr std::size_t longest_heading = 1000;
 
-/// The result of the process that reads the file: a fault in words, or triangles (mm) and the unit of the file.
+/// The result of the process that reads the file: a fault in words, or triangles (mm) with the volume of the solid
+/// (mm³) and the unit of the file.
 struct Found {
   std::string fault;
   std::string unit;
@@ -117,7 +120,11 @@ Found found_in(const std::string& path, const StepOptions& options) {
   BRepMesh_IncrementalMesh(shape, options.linear_deflection * diagonal, false, options.angular_deflection_rad, false);
   if (const auto bad = face_without_triangles(shape))
     result.fault = "has a face that cannot be triangulated, at " + place(*bad) + "; heal it in the CAD program";
-  else result.soup = triangles_of(shape);
+  if (!result.fault.empty()) return result;
+  result.soup = triangles_of(shape);
+  GProp_GProps solid;
+  BRepGProp::VolumeProperties(shape, solid);
+  result.soup.solid_volume_m3 = solid.Mass();
   return result;
 }
 
@@ -149,6 +156,7 @@ std::vector<char> serialised(const Found& found) {
   append(bytes, found.unit.data(), found.unit.size());
   append(bytes, found.soup.points.data(), found.soup.points.size());
   append(bytes, found.soup.triangles.data(), found.soup.triangles.size());
+  append(bytes, &found.soup.solid_volume_m3, 1);
   return bytes;
 }
 
@@ -168,6 +176,9 @@ Found found_confined(const std::string& path, const std::string& name, const Ste
     take(bytes, at, found.unit);
     take(bytes, at, found.soup.points);
     take(bytes, at, found.soup.triangles);
+    std::vector<double> volume;
+    take(bytes, at, volume);
+    if (!volume.empty()) found.soup.solid_volume_m3 = volume.front();
     return found;
   } catch (const core::NumericalError& error) {
     throw core::DataError(name + ": Open CASCADE failed on the file: " + error.what() +
@@ -211,6 +222,7 @@ StepSurface read_step(const std::filesystem::path& path, const StepOptions& opti
                      options.metres_per_unit > 0.0 ? options.metres_per_unit : *stated};
   const double scale = reader_unit_m * result.metres_per_unit / *stated;
   for (auto& x : result.soup.points) x *= scale;
+  result.soup.solid_volume_m3 *= scale * scale * scale;
   return result;
 }
 

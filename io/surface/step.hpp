@@ -15,7 +15,7 @@ struct StepOptions {
   /// 1e-6 to 0.1.
   double linear_deflection = 1e-3;
   /// Turning between neighbouring triangles of a curved face, 0.01 to 1.5: a tube loses θ²/6 of its volume to the
-  /// chords, a thousandth, which no estimate sees.
+  /// chords, a thousandth.
   double angular_deflection_rad = 0.08;
   double metres_per_unit = 0.0;  ///< unit used instead of the file's own; 0: the file's own
   mesh::ProcessLimits limits;
@@ -28,7 +28,8 @@ struct StepSurface {
   double metres_per_unit = 0.0;
 };
 
-/// Reads a file with one solid and triangulates its faces (Open CASCADE: STEPControl_Reader, BRepMesh_IncrementalMesh),
+/// Reads a file with one solid and triangulates its faces (Open CASCADE: STEPControl_Reader, BRepMesh_IncrementalMesh;
+/// the volume of the solid by BRepGProp),
 /// in a process of its own with limits, because some files crash Open CASCADE or occupy it for very long. Throws
 /// InputError for options out of range and if the program was built without Open CASCADE; DataError for a file that
 /// cannot be opened, is no STEP file (no ISO-10303-21 at its begin), ends early, states no or several units of length,

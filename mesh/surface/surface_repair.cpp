@@ -262,6 +262,9 @@ void turn_outwards(Repair& repair, const SurfaceRepairOptions& options) {
   repair.refuse_if_any(faults);
 }
 
+/// A share of the volume.
+constexpr double most_lost_by_chords = 0.1;
+
 void require_thick_enough(SurfaceRepair& result, double thinnest_m) {
   const ThinWalls walls = thin_walls(result.surface, thinnest_m);
   result.thinnest_wall_m = walls.thinnest_m;
@@ -283,6 +286,8 @@ SurfaceRepair repaired_surface(const TriangleSoup& soup, const SurfaceRepairOpti
   turn_outwards(repair, options);
   require_closed_shell(repair.result.surface);
   repair.result.volume_m3 = volume(repair.result.surface);
+  if (std::abs(soup.solid_volume_m3 / repair.result.volume_m3 - 1.0) < most_lost_by_chords)
+    repair.result.solid_volume_m3 = soup.solid_volume_m3;
   if (options.thinnest_wall_m > 0.0) require_thick_enough(repair.result, options.thinnest_wall_m);
   return std::move(repair.result);
 }

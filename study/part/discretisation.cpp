@@ -143,6 +143,7 @@ fem::ClosedPartOptions closed_part_options(const PartInput& source) {
   options.attachments = setup::attachments_of(source);
   options.materials = several_materials(source);
   options.divided = [&source](mesh::TetMesh mesh) { return setup::cut_at_materials(source, std::move(mesh)); };
+  options.solid_volume_m3 = source.part->imported->surface->solid_volume_m3;
   options.levels = 2;
   options.time_budget_s = budget_of_solutions_s(*source.part);
   options.solved = log_step;

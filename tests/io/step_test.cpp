@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <random>
 #include <string>
@@ -62,6 +63,7 @@ TEST_F(Step, ASolidHasTheVolumeOfItsClosedForm) {
     EXPECT_EQ(found.metres_per_unit, 1e-3) << found.unit;
     const auto repair = mesh::repaired_surface(found.soup);
     EXPECT_TRUE(repair.mended.empty()) << "closed as it comes: " << mesh::text(repair);
+    EXPECT_NEAR(repair.solid_volume_m3 / (1e-9 * exact), 1.0, 1e-6) << "that of the solid, however coarse the facets";
     const double error = std::abs(repair.volume_m3 / (1e-9 * exact) - 1.0);
     std::printf("turn %.1f: %zu facets, volume off %.1e\n", turn, found.soup.triangles.size(), error);
     EXPECT_LT(error, 0.1 * last) << "falls as the square of the turning: by 25";
@@ -76,6 +78,9 @@ TEST_F(Step, TheUnitIsTheFilesOrTheCallers) {
   inches.metres_per_unit = 0.0254;
   const auto forced = mesh::bounds(read_step(parts / "bracket.step", inches).soup);
   EXPECT_NEAR(forced.largest.x() - forced.least.x(), 70 * 0.0254, 1e-6);
+  EXPECT_NEAR(std::cbrt(read_step(parts / "bracket.step", inches).soup.solid_volume_m3 /
+                        read_step(parts / "bracket.step").soup.solid_volume_m3),
+              25.4, 1e-9);
   const auto centimetres = read_step(changed("SI_UNIT(.MILLI.,.METRE.)", "SI_UNIT(.CENTI.,.METRE.)"));
   EXPECT_EQ(centimetres.metres_per_unit, 1e-2) << centimetres.unit;
   const auto scaled = mesh::bounds(centimetres.soup);
