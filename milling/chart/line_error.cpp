@@ -35,19 +35,28 @@ bool on_one_lobe(const LobeRow& a, const LobeRow& b, double periods_per_turn) {
   return alike(a, b) && lobe(a) == lobe(b);
 }
 
-/// True if the lobe of two rows goes on as another crossing of the next row than its first: one whose chatter frequency
-/// is nearer by half to where the two rows point. Modes beside each other have lobes of one ⌊f_c T⌋ whose frequencies
-/// differ by less than those of neighbouring speeds.
-bool goes_on_above(const LobeRow& before, const LobeRow& row, const LobeRow& next) {
-  if (row.kind != Bifurcation::hopf || next.at_limit) return false;
+/// The chatter frequency that the motion of a row has at the speed of `next`, as the row before tells.
+double expected_frequency(const LobeRow& before, const LobeRow& row, const LobeRow& next) {
   const double share =
       (next.spindle_speed_rpm - row.spindle_speed_rpm) / (row.spindle_speed_rpm - before.spindle_speed_rpm);
-  const double expected = row.chatter_frequency_hz + share * (row.chatter_frequency_hz - before.chatter_frequency_hz);
+  return row.chatter_frequency_hz + share * (row.chatter_frequency_hz - before.chatter_frequency_hz);
+}
+
+/// True if another lobe takes over between a row and the next: the lobe of two rows goes on as a deeper crossing of the
+/// next, or a deeper one of theirs becomes its first, by frequencies that are nearer by half to where the two point.
+/// Modes beside each other have lobes of one ⌊f_c T⌋ whose frequencies differ by less than those of neighbouring
+/// speeds.
+bool another_takes_over(const LobeRow& before, const LobeRow& row, const LobeRow& next) {
+  if (row.kind != Bifurcation::hopf || next.at_limit) return false;
+  const double expected = expected_frequency(before, row, next), change = expected - row.chatter_frequency_hz;
   const double first = std::abs(next.chatter_frequency_hz - expected);
-  return std::ranges::any_of(next.crossings, [&](const LobePoint& other) {
-    return other.kind == Bifurcation::hopf && other.depth_m > next.limiting_depth_m &&
-           std::abs(other.chatter_frequency_hz - expected) < 0.5 * first;
-  });
+  const auto is_nearer = [first](const LobeRow& from, double moved_hz, double to_hz) {
+    return std::ranges::any_of(from.crossings, [&](const LobePoint& other) {
+      return other.kind == Bifurcation::hopf && other.depth_m > from.limiting_depth_m &&
+             std::abs(other.chatter_frequency_hz + moved_hz - to_hz) < 0.5 * first;
+    });
+  };
+  return is_nearer(next, 0.0, expected) || is_nearer(row, change, next.chatter_frequency_hz);
 }
 
 /// For each gap, true if both rows lie on one lobe. The rows of either side tell that it goes on as a deeper crossing;
@@ -59,8 +68,8 @@ std::vector<bool> joined_rows(const std::vector<LobeRow>& rows, double periods_p
   for (std::size_t i = 0; i < one.size(); ++i) {
     const bool left_tells = i > 0 && one[i - 1], right_tells = i + 1 < one.size() && one[i + 1];
     const bool parts = (left_tells || right_tells) &&
-                       (!left_tells || goes_on_above(rows[i - 1], rows[i], rows[i + 1])) &&
-                       (!right_tells || goes_on_above(rows[i + 2], rows[i + 1], rows[i]));
+                       (!left_tells || another_takes_over(rows[i - 1], rows[i], rows[i + 1])) &&
+                       (!right_tells || another_takes_over(rows[i + 2], rows[i + 1], rows[i]));
     if (parts) joined[i] = false;
   }
   return joined;
@@ -130,19 +139,40 @@ double smooth_error(const Around& at) {
   return distance_from_chord(at, depth) / std::sqrt(depth(*at.left) * depth(*at.right));
 }
 
+bool is_wide_for_real_lobe(const LobeRow& left, const LobeRow& right) {
+  return right.spindle_speed_rpm > left.spindle_speed_rpm * (1.0 + narrow_real_lobe);
+}
+
+/// The share of the way from a to b periods at which twice as many are a whole number, if they are.
+std::optional<double> share_at_half_period(double a, double b) {
+  const double half = 0.5 * std::ceil(2.0 * std::min(a, b));
+  if (!(half <= std::max(a, b)) || a == b) return std::nullopt;
+  return std::clamp((half - a) / (b - a), 0.05, 0.95);
+}
+
 /// The share of the gap between two rows of one motion, at its crossing or at the depth limit, at which its pair of
 /// multipliers passes −1 or +1 (at the limit: the real axis): where 2 f_c T is a whole number; none if it does not.
 /// There the two are equal and real, so that beside this speed one of them alone may leave the unit circle sooner: a
 /// flip or fold lobe begins and ends within the gap although both rows show the same motion.
 std::optional<double> passage_of_real_axis(const LobeRow& left, const LobeRow& right, double periods_per_turn) {
   constexpr double one_motion = 0.5;  // periods: lobes of two motions differ by more as a rule
-  if (left.kind != Bifurcation::hopf || !alike(left, right)) return std::nullopt;
-  if (right.spindle_speed_rpm <= left.spindle_speed_rpm * (1.0 + narrow_real_lobe)) return std::nullopt;
+  if (left.kind != Bifurcation::hopf || !alike(left, right) || !is_wide_for_real_lobe(left, right)) return std::nullopt;
   const double a = periods_of(left, periods_per_turn), b = periods_of(right, periods_per_turn);
   if (!on_one_lobe(left, right, periods_per_turn) && std::abs(a - b) >= one_motion) return std::nullopt;
-  const double half = 0.5 * std::ceil(2.0 * std::min(a, b));
-  if (half > std::max(a, b) || a == b) return std::nullopt;
-  return std::clamp((half - a) / (b - a), 0.05, 0.95);
+  return share_at_half_period(a, b);
+}
+
+/// That share where the lobe of one side rises to the depth limit within the gap, by its last two rows.
+std::optional<double> passage_below_limit(const Around& at, double periods_per_turn) {
+  if (at.left->at_limit == at.right->at_limit || !is_wide_for_real_lobe(*at.left, *at.right)) return std::nullopt;
+  const bool from_left = at.right->at_limit;
+  const LobeRow& row = from_left ? *at.left : *at.right;
+  const LobeRow* behind = from_left ? at.before : at.after;
+  if (behind == nullptr || row.kind != Bifurcation::hopf) return std::nullopt;
+  const double a = periods_of(row, periods_per_turn), away_rpm = row.spindle_speed_rpm - behind->spindle_speed_rpm;
+  const double change = (a - periods_of(*behind, periods_per_turn)) * width(at) / std::abs(away_rpm);
+  const std::optional<double> share = share_at_half_period(a, a + change);
+  return share && !from_left ? 1.0 - *share : share;
 }
 
 /// Between two rows that are stable to the depth limit a lobe may be hidden if the growth of motions there, as far as
@@ -165,7 +195,8 @@ bool may_hide_lobe(const Around& at, bool one_motion) {
 /// chord.
 struct Continued {
   double value = 0.0, slope = 0.0, bend = 0.0;
-  double before_rpm = 0.0;  ///< distance from the row to the one behind it
+  double before_rpm =
+      0.0;  ///< distance from the row to the other point of the slope, which lies behind it; < 0: before
 
   /// At a distance from the row into the gap, rpm.
   [[nodiscard]] double at(double into_rpm) const {
@@ -173,14 +204,37 @@ struct Continued {
   }
 };
 
-/// `row` is beside the gap, `behind` and `farther` follow away from it; null where the lobe has none.
-Continued continued(const LobeRow& row, const LobeRow* behind, const LobeRow* farther) {
+/// The depth of the deeper crossing as which the lobe of a row goes on at the other row of the gap, m; none if it is
+/// not told from others by its frequency.
+std::optional<double> known_beyond(const LobeRow& row, const LobeRow& behind, const LobeRow& other) {
+  const double expected = expected_frequency(behind, row, other);
+  const double as_far_as_hz = 0.25 * std::abs(other.chatter_frequency_hz - expected);
+  std::optional<double> depth_m;
+  for (const LobePoint& point : other.crossings) {
+    if (point.kind != row.kind || !(point.depth_m > other.limiting_depth_m)) continue;
+    if (std::abs(point.chatter_frequency_hz - expected) > as_far_as_hz) continue;
+    if (depth_m) return std::nullopt;
+    depth_m = point.depth_m;
+  }
+  return depth_m;
+}
+
+/// `row` is beside the gap, `behind` and `farther` follow away from it, null where the lobe has none, and `other` is
+/// the row on the other side. Where that knows the lobe, too, the parabola goes through its crossing there.
+Continued continued(const LobeRow& row, const LobeRow* behind, const LobeRow* farther, const LobeRow& other) {
   Continued lobe{inverse_depth(row)};
   if (row.at_limit || behind == nullptr) return lobe;
   const double away = behind->spindle_speed_rpm < row.spindle_speed_rpm ? 1.0 : -1.0;
   lobe.slope = away * slope(*behind, row, inverse_depth);
   lobe.before_rpm = std::abs(row.spindle_speed_rpm - behind->spindle_speed_rpm);
   if (farther != nullptr) lobe.bend = curvature(*farther, *behind, row, inverse_depth);
+  if (const std::optional<double> beyond_m = known_beyond(row, *behind, other)) {
+    const double h = std::abs(other.spindle_speed_rpm - row.spindle_speed_rpm);
+    const double to_other = (1.0 / *beyond_m - lobe.value) / h;
+    lobe.bend = (to_other - lobe.slope) / (h + lobe.before_rpm);
+    lobe.slope = to_other;
+    lobe.before_rpm = -h;
+  }
   return lobe;
 }
 
@@ -197,30 +251,47 @@ std::optional<double> corner_of(const Continued& left, const Continued& right, d
   return 0.5 * (from + to);
 }
 
-/// The corner where the continuations of both lobes meet, and what the line is off there.
+/// By how much the chord of the gap is off the boundary that the lower of both continuations is, relative.
+double off_chord(const Around& at, const Continued& left, const Continued& right) {
+  constexpr int looks = 16;
+  const double h = width(at), chord = slope(*at.left, *at.right);
+  double off = 0.0;
+  for (int k = 1; k < looks; ++k) {
+    const double x = h * k / looks;
+    off = std::max(off, std::abs(1.0 - (depth(*at.left) + chord * x) * std::max(left.at(x), right.at(h - x))));
+  }
+  return off;
+}
+
+/// By how much the continuations are off each other's row, relative: lobes that run nearly side by side do not meet as
+/// far as their rows tell, but where each goes on close to the other's row, so does the boundary.
+double off_rows(const Around& at, const Continued& left, const Continued& right) {
+  const double h = width(at);
+  return std::max(std::abs(1.0 - left.at(h) * depth(*at.right)), std::abs(1.0 - right.at(h) * depth(*at.left)));
+}
+
+/// The corner where the continuations of both lobes meet, and what the line is off in the gap.
 void add_corner(const Around& at, LineGap& gap) {
   gap.error = unknown;
+  if (!(depth(*at.left) > 0.0 && depth(*at.right) > 0.0)) return;
   const bool known = (at.before != nullptr || at.left->at_limit) && (at.after != nullptr || at.right->at_limit);
   if (!known) return;
   const double h = width(at);
-  const Continued left = continued(*at.left, at.before, at.farther_before);
-  const Continued right = continued(*at.right, at.after, at.farther_after);
+  const Continued left = continued(*at.left, at.before, at.farther_before, *at.right);
+  const Continued right = continued(*at.right, at.after, at.farther_after, *at.left);
   const double rise = std::abs(std::log(depth(*at.left) / depth(*at.right)));
   const std::optional<double> x = corner_of(left, right, h);
   if (!x) {
-    // Lobes that run nearly side by side do not meet as far as their rows tell: where each goes on close to the
-    // other's row, so does the boundary.
     if (!(left.at(h) > 0.0 && right.at(h) > 0.0)) return;
-    const double beside =
-        std::max(std::abs(1.0 - left.at(h) * depth(*at.right)), std::abs(1.0 - right.at(h) * depth(*at.left)));
-    gap.error = std::max(safety * beside, unseen * rise);
-    return;
+    gap.error = safety * std::max(off_chord(at, left, right), off_rows(at, left, right));
+  } else {
+    const double top = 1.0 / left.at(*x);
+    if (!(top > 0.0)) return;
+    const double at_top = std::abs(1.0 - (depth(*at.left) + slope(*at.left, *at.right) * *x) / top);
+    gap.error = safety * std::max(at_top, off_chord(at, left, right));
   }
-  const double top = 1.0 / left.at(*x);
-  if (!(top > 0.0)) return;
-  gap.error = safety * std::abs(1.0 - (depth(*at.left) + slope(*at.left, *at.right) * *x) / top);
   if (unseen * rise > gap.error) gap.error = unseen * rise;
-  else gap.corner_rpm = at.left->spindle_speed_rpm + std::clamp(*x / h, 0.1, 0.9) * h;
+  else if (x) gap.corner_rpm = at.left->spindle_speed_rpm + std::clamp(*x / h, 0.1, 0.9) * h;
 }
 
 }  // namespace
@@ -238,7 +309,9 @@ std::vector<LineGap> line_gaps(const std::vector<LobeRow>& rows, const MillingPr
     gap.corner = !joined[i];
     if (right.spindle_speed_rpm <= left.spindle_speed_rpm * (1.0 + narrow)) continue;
     const Around at = around(rows, joined, i);
-    if (const std::optional<double> passage = passage_of_real_axis(left, right, periods)) {
+    std::optional<double> passage = passage_of_real_axis(left, right, periods);
+    if (!passage) passage = passage_below_limit(at, periods);
+    if (passage) {
       gap.error = unknown;
       gap.corner_rpm = left.spindle_speed_rpm + *passage * width(at);
     } else if (left.at_limit && right.at_limit) gap.error = may_hide_lobe(at, joined[i]) ? unknown : 0.0;

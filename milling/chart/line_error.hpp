@@ -35,13 +35,15 @@ constexpr double narrow_real_lobe = 1e-3;
 ///
 /// with the larger of the divided differences of both sides, doubled for what it changes within the gap. Where two
 /// lobes meet the boundary is the lower of them, and each is continued into the gap, in 1/w by the parabola of three of
-/// its rows, or by its last chord where it has two; where they do not meet the error is twice the distance of the
-/// continuations from each other's row. A gap beside which a lobe has one row only tells nothing: the error
-/// is infinite. Where 2 f_c T of a Hopf lobe, or of the least stable motion at the depth limit, passes a whole number,
-/// a pair of multipliers passes −1 or +1 and a flip or fold lobe may lie within (strong resonances 1:2 and 1:1;
-/// Kuznetsov, Elements of Applied Bifurcation Theory, 2004, sections 9.5.2 and 9.5.3): the error of such a gap is
-/// infinite, too, unless it is narrower than `narrow_real_lobe`, and its corner is that passage, linearly between the
-/// rows. The error is 0 of a gap that is narrower than the share `narrow`. `rows` by rising speed. Cost O(rows).
+/// its rows, or by its last chord where it has two, or through the deeper crossing that the other row has of it: the
+/// error is twice the distance of the line from the lower of both, and, where they do not meet, of each from the
+/// other's row. A gap beside which a lobe has one row only tells nothing: the error
+/// is infinite. Where 2 f_c T of a Hopf lobe that both rows show, or of one that rises to the depth limit, or of the
+/// least stable motion there, passes a whole number, a pair of multipliers passes −1 or +1 and a flip or fold lobe may
+/// lie within (strong resonances 1:2 and 1:1; Kuznetsov, Elements of Applied Bifurcation Theory, 2004, sections 9.5.2
+/// and 9.5.3): the error of such a gap is infinite, too, unless it is narrower than `narrow_real_lobe`, and its corner
+/// is that passage, linearly between the rows. The error is 0 of a gap that is narrower than the share `narrow`. `rows`
+/// by rising speed. Cost O(rows).
 [[nodiscard]] std::vector<LineGap> line_gaps(const std::vector<LobeRow>& rows, const MillingProcess& process,
                                              double narrow = narrow_gap);
 

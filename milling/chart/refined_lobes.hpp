@@ -28,9 +28,9 @@ struct LineOptions {
 /// out among core::thread_count() threads, each with the depth of the line as the one expected. Before a speed that is
 /// added, the rows do not depend on `asked`, and never on the number of threads nor on what was kept: here a block is
 /// one row, by the number of rows before its generation and its place therein. Lobes::line tells what was reached.
-/// A narrow lobe that lies between two speeds as a whole is seen if it is a flip or fold lobe on the flank of a Hopf
-/// lobe (line_gaps), others are not. Throws InputError for bad options or a chart of fewer than two speeds; what row_at
-/// throws; Interrupted. Cost: a row for each added speed.
+/// A narrow lobe that lies between two speeds as a whole is seen if it is a flip or fold lobe on the flank of the Hopf
+/// lobe that is the boundary (line_gaps), others are not. Throws InputError for bad options or a chart of fewer than
+/// two speeds; what row_at throws; Interrupted. Cost: a row for each added speed.
 [[nodiscard]] Lobes refined(Lobes chart, const RowAt& row_at, const MillingProcess& process,
                             const StabilityOptions& options, const LineOptions& line,
                             const std::vector<double>& asked = {}, const KeptRows& kept = {});

@@ -41,7 +41,7 @@ void follow_without_other_fits(FittedStructure structure, const CutAtSpeed& cut,
 /// to half as deep again as the limit; a fit without a crossing has that depth. 1 where a row is not known. Beside a
 /// nose, where two eigenvalues nearly meet, a crossing that is followed to another fit may be lost, which makes e at
 /// least 1 though the rows of all fits agree. Without noise, rows tell then, that of the modes within the lines, too,
-/// and e holds what they do not.
+/// and e holds what they do not; the changes by both are taken off w then, too.
 double open_by_depth(const FittedStructure& structure, const CutAtSpeed& cut, const StabilityOptions& options) {
   StabilityOptions beyond = options;
   beyond.depth_limit_m *= looked_at;
@@ -55,26 +55,30 @@ double open_by_depth(const FittedStructure& structure, const CutAtSpeed& cut, co
   const LobeRow row = row_by(structure.all);
   if (!known(row)) return 1.0;
   const double by_all_m = row.limiting_depth_m;
-  double least_m = by_all_m;
-  const auto all_known = [&](std::initializer_list<const Fit*> fits, double times) {
+  const auto change_by_m = [&](std::initializer_list<const Fit*> fits) {  // not finite if a row is not known
+    double change_m = 0.0;
     for (const Fit* fit : fits) {
       const LobeRow other = row_by(*fit);
-      if (!known(other)) return false;
-      least_m = std::min(least_m, by_all_m - times * std::abs(by_all_m - other.limiting_depth_m));
+      if (!known(other)) return HUGE_VAL;
+      change_m = std::max(change_m, std::abs(by_all_m - other.limiting_depth_m));
     }
-    return true;
+    return change_m;
   };
-  if (!all_known({&structure.even, &structure.odd}, 2.0)) return 1.0;
+  const double by_halves_m = 2.0 * change_by_m({&structure.even, &structure.odd});
+  double least_m = by_all_m - by_halves_m;
   if (!row.crossings.empty()) {
     LobePoint first = row.crossings.front();
+    double apart_m = 0.0;  // what the estimate lacks, where the crossing was lost on the way to another fit
     follow_to_lines(structure, cut, first);
     if (first.error_estimate >= 1.0 && structure.without.empty()) {
-      if (!all_known({&structure.within}, 1.0)) return 1.0;
+      apart_m = by_halves_m + change_by_m({&structure.within});
       follow_without_other_fits(structure, cut, first = row.crossings.front());
     }
-    if (!std::isfinite(first.depth_m * first.error_estimate)) return 1.0;  // a comparison would pass it over
-    least_m = std::min(least_m, first.depth_m * (1.0 - first.error_estimate));
+    const double first_m = first.depth_m * (1.0 - first.error_estimate) - apart_m;
+    if (!std::isfinite(first_m)) return 1.0;  // a comparison would pass it over
+    least_m = std::min(least_m, first_m);
   }
+  if (!std::isfinite(least_m)) return 1.0;
   return 1.0 - least_m / options.depth_limit_m;
 }
 

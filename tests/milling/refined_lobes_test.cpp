@@ -140,7 +140,6 @@ TEST(RefinedLine, SeesThePeakOfALobeThatBendsUpwardsBeforeItsCorner) {
   EXPECT_GE(line_gaps(rows, two_teeth())[2].error, off);
 }
 
-// Between 5050 and 5100 rpm the multipliers of the Hopf lobe pass -1, and a flip lobe of ten rpm lies there.
 /// Two modes beside each other: lobes of one ⌊f_c T⌋ whose boundaries cross at 4000 rpm, and the rows know both.
 LobeRow row_of_two_modes(double rpm) {
   const double x = (rpm - 4000.0) / 4000.0;
@@ -165,6 +164,7 @@ TEST(RefinedLine, SeesTheCornerOfTwoLobesOfNearlyEqualFrequencies) {
   EXPECT_NEAR(gap.corner_rpm, 4000.0, 1.0);
 }
 
+// Between 5050 and 5100 rpm the multipliers of the Hopf lobe pass -1, and a flip lobe of ten rpm lies there.
 TEST(RefinedLine, SeesAFlipLobeThatLiesBetweenTwoSpeedsOnAHopfLobe) {
   const MillingProcess process = testing::benchmark_process(0.5);
   const RelativeStructure structure =
@@ -200,10 +200,29 @@ TEST(RefinedLine, SeesAFoldLobeThatLiesBetweenTwoSpeedsOnAHopfLobe) {
   MillingProcess process = two_teeth();
   process.cutter.teeth = 1;
   const StabilityOptions options;
-  const Lobes chart = refined(even_chart(5040.0, 5740.0, 8, row_at, options), row_at, process, options, {});
+  const Lobes chart = refined(even_chart(5020.0, 5720.0, 8, row_at, options), row_at, process, options, {});
   EXPECT_NEAR(line_at(chart, 5290.0), row_at(5290.0, options).limiting_depth_m, 2e-2 * 1e-3);
   EXPECT_NEAR(line_at(chart, 5310.0), row_at(5310.0, options).limiting_depth_m, 2e-2 * 1e-3);
   EXPECT_TRUE(chart.line->met);
+}
+
+TEST(RefinedLine, DoesNotTakeABentLobeForStraightWhereAnotherRunsAboveIt) {
+  // 1/w is a parabola, and a deeper crossing lies where the frequencies of two rows point: the lobe seems to part.
+  std::vector<LobeRow> rows;
+  const auto row_at = [](double rpm) {
+    const double x = (rpm - 4000.0) / 20.0, f = 508.0 + x - 0.4 * x * x;
+    LobeRow row;
+    row.spindle_speed_rpm = rpm;
+    row.crossings = {{1e-3 / (1.0 - 0.07 * x * x), f, Bifurcation::hopf, 2, 1e-9},
+                     {19e-3, f + 4.8, Bifurcation::hopf, 2, 1e-9}};
+    take_limit_from_crossings(row);
+    return row;
+  };
+  for (const double rpm : {3930.0, 3950.0, 3970.0, 4030.0, 4050.0, 4070.0}) rows.push_back(row_at(rpm));
+  MillingProcess process = two_teeth();
+  process.cutter.teeth = 1;
+  const double chord = rows[2].limiting_depth_m;
+  EXPECT_GE(line_gaps(rows, process)[2].error, chord / row_at(4000.0).limiting_depth_m - 1.0);
 }
 
 TEST(RefinedLine, GoesThroughTheSpeedsThatAreAsked) {
