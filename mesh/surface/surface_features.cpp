@@ -3,13 +3,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <map>
 #include <set>
 #include <span>
 #include <vector>
 
+#include "core/error.hpp"
 #include "mesh/surface/edge_uses.hpp"
 
 namespace thinwall::mesh {
@@ -22,7 +22,7 @@ using Edge = std::array<int, 2>;
 std::vector<std::array<int, 3>> triangles_beyond(const TriangleSurface& surface, const std::vector<EdgeUse>& uses) {
   std::vector<std::array<int, 3>> result(surface.triangles.size());
   for_each_edge(uses, [&](std::span<const EdgeUse> both) {
-    assert(both.size() == 2);
+    if (both.size() != 2) throw core::InputError("the features of a surface that is not closed are not known; mend it");
     for (std::size_t side = 0; side < 2; ++side) {
       const EdgeUse& use = both[side];
       const auto& v = surface.triangles[static_cast<std::size_t>(use.triangle)];
@@ -86,33 +86,52 @@ int flood_between(const TriangleSurface& surface, const std::vector<std::array<i
   return flood(beyond, is_sharp, patch);
 }
 
-/// The planes of which each patch consists, by the number of the plane of each triangle; not more than `most` + 1.
+/// For each plane, true if it is no sliver: rounded coordinates turn the normals of slivers of a plane face.
+std::vector<bool> wide_planes(const TriangleSurface& surface, const std::vector<int>& plane, int planes) {
+  constexpr double narrow = 1e-3;  // of the part's diagonal
+  std::vector<double> area(static_cast<std::size_t>(planes), 0.0);
+  std::vector<Eigen::AlignedBox3d> box(area.size());
+  for (std::size_t t = 0; t < plane.size(); ++t) {
+    const auto p = static_cast<std::size_t>(plane[t]);
+    area[p] += area_vector(surface, static_cast<int>(t)).norm();
+    for (const int v : surface.triangles[t]) box[p].extend(surface.vertices[static_cast<std::size_t>(v)]);
+  }
+  const double least_m = narrow * diagonal(surface);
+  std::vector<bool> is_wide(area.size());
+  for (std::size_t p = 0; p < area.size(); ++p) is_wide[p] = area[p] > least_m * box[p].sizes().norm();
+  return is_wide;
+}
+
+/// The wide planes of which each patch consists, by the number of the plane of each triangle; not more than `most` + 1.
 std::vector<std::set<int>> planes_of(const std::vector<int>& patch, int patches, const std::vector<int>& plane,
-                                     std::size_t most) {
+                                     const std::vector<bool>& is_wide, std::size_t most) {
   std::vector<std::set<int>> result(static_cast<std::size_t>(patches));
-  for (std::size_t t = 0; t < patch.size(); ++t)
+  for (std::size_t t = 0; t < patch.size(); ++t) {
+    if (!is_wide[static_cast<std::size_t>(plane[t])]) continue;
     if (auto& planes = result[static_cast<std::size_t>(patch[t])]; planes.size() <= most) planes.insert(plane[t]);
+  }
   return result;
 }
 
-/// The sharp edges, and the creases of patches that consist of two or three planes: such a patch is no tessellated
+/// The sharp edges, and the creases of patches that consist of two to four wide planes: such a patch is no tessellated
 /// curve but has a ridge or a bevel, whose corners elements across it would cut off.
 std::map<Edge, Edge> with_creases(const TriangleSurface& surface, const std::vector<EdgeUse>& uses,
                                   const std::vector<std::array<int, 3>>& beyond, std::map<Edge, Edge> sharp) {
   constexpr double plane_rad = 1e-3;
-  constexpr std::size_t most_planes = 3;
+  constexpr std::size_t most_planes = 4;
   std::vector<int> patch, plane;
   const int patches = flood_between(surface, beyond, sharp, patch);
   const auto is_crease = [&](int here, std::size_t, int next) {
     return angle_between(area_vector(surface, here), area_vector(surface, next)) > plane_rad;
   };
-  flood(beyond, is_crease, plane);
-  const auto planes = planes_of(patch, patches, plane, most_planes);
+  const std::vector<bool> is_wide = wide_planes(surface, plane, flood(beyond, is_crease, plane));
+  const auto planes = planes_of(patch, patches, plane, is_wide, most_planes);
   for_each_edge(uses, [&](std::span<const EdgeUse> both) {
     const bool first_is_left = both[0].is_forward;
     const Edge sides{both[first_is_left ? 0 : 1].triangle, both[first_is_left ? 1 : 0].triangle};
     const auto left = static_cast<std::size_t>(sides[0]), right = static_cast<std::size_t>(sides[1]);
     if (patch[left] != patch[right] || plane[left] == plane[right]) return;
+    if (!is_wide[static_cast<std::size_t>(plane[left])] || !is_wide[static_cast<std::size_t>(plane[right])]) return;
     if (planes[static_cast<std::size_t>(patch[left])].size() <= most_planes) sharp.emplace(both[0].ends, sides);
   });
   return sharp;

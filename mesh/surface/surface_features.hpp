@@ -24,7 +24,7 @@ struct SurfaceFeatures {
 };
 
 /// The features of a surface. An edge is sharp if the normals of its two triangles differ by more than
-/// `sharp_angle_rad`, or if it is the ridge of a patch that would consist of two or three planes, which is no
+/// `sharp_angle_rad`, or if it is the ridge of a patch that would consist of two to four planes, which is no
 /// tessellated curve; patches are the parts that sharp edges separate; a corner is a vertex at which a number other
 /// than two of sharp edges meet, or two at more than this angle. The surface must be closed (mesh::require_closed()).
 /// Cost O(n log n).

@@ -109,6 +109,48 @@ TEST(SurfaceFeatures, OfARhombicBarAreItsFourSidesToo) {
   EXPECT_EQ(features.lines.size(), 12U);
 }
 
+// A vertex on the face, three micrometres from its border, has rounded coordinates: a sliver beside it turns by 2e-3
+// rad.
+TEST(SurfaceFeatures, OfARoundedBlockHaveNoPatchOfASliver) {
+  TriangleSurface block;
+  const Eigen::Matrix3d turn =
+      (Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()))
+          .toRotationMatrix();
+  for (const double z : {0.0, 0.004})
+    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {0.2, 0.0}, {0.2, 0.1}, {0.0, 0.1}})
+      block.vertices.emplace_back(x, y, z);
+  block.vertices.emplace_back(0.1, 3e-6, 0.004 + 6e-9);
+  for (auto& x : block.vertices) x = turn * x;
+  block.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 8}, {5, 6, 8}, {6, 7, 8}, {7, 4, 8}};
+  for (int k = 0; k < 4; ++k) {
+    const int next = (k + 1) % 4;
+    block.triangles.push_back({k, next, next + 4});
+    block.triangles.push_back({k, next + 4, k + 4});
+  }
+  require_closed(block);
+  const auto features = surface_features(block, thirty_degrees);
+  EXPECT_EQ(features.patches, 6);
+  EXPECT_EQ(features.lines.size(), 12U);
+}
+
+TEST(SurfaceFeatures, OfALowPyramidAreItsFourRidgesToo) {
+  TriangleSurface pyramid;
+  for (const double z : {0.0, 0.004})
+    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {0.2, 0.0}, {0.2, 0.1}, {0.0, 0.1}})
+      pyramid.vertices.emplace_back(x, y, z);
+  pyramid.vertices.emplace_back(0.1, 0.05, 0.01);
+  pyramid.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 8}, {5, 6, 8}, {6, 7, 8}, {7, 4, 8}};
+  for (int k = 0; k < 4; ++k) {
+    const int next = (k + 1) % 4;
+    pyramid.triangles.push_back({k, next, next + 4});
+    pyramid.triangles.push_back({k, next + 4, k + 4});
+  }
+  require_closed(pyramid);
+  const auto features = surface_features(pyramid, thirty_degrees);
+  EXPECT_EQ(features.patches, 9);
+  EXPECT_EQ(features.lines.size(), 16U);
+}
+
 TEST(SurfaceFeatures, OfACylinderSectorLeaveTheArcsWhole) {
   const auto features = surface_features(surface(CylinderSector{}, 0.005), thirty_degrees);
   EXPECT_EQ(features.patches, 6);
