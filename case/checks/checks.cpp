@@ -118,6 +118,7 @@ void check_measured(const std::string& key, const setup::MeasuredFrf& frf, Findi
   require_direction(key + ".response", frf.response, findings);
   require_direction(key + ".force", frf.force, findings);
   std::error_code ignored;
+  if (frf.file.empty() && findings.given(key + ".file")) findings.report(key + ".file", "names no file");
   if (!frf.file.empty() && !std::filesystem::exists(frf.file, ignored)) {
     findings.report(key + ".file", "there is no file \"" + frf.file.string() + "\"");
   } else if (frf.averages && frf.content) {

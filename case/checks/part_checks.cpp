@@ -66,6 +66,10 @@ bool on_face(const setup::Part& part, const std::string& face, const Eigen::Vect
 }
 
 void check_matrices(const io::MatrixFiles& files, Findings& findings) {
+  if (findings.given("part.matrices.stiffness") && files.stiffness.empty()) {
+    findings.report("part.matrices.stiffness", "names no file; take a .mtx, .sti, .mat or another file of matrices");
+    return;
+  }
   try {
     (void)dynamics::unit_system(files.length_unit, files.mass_unit);
   } catch (const core::InputError& error) {

@@ -144,6 +144,10 @@ TEST(HostileCase, APartOfAnEmptyNameIsNoDataFile) {
       "[part]\nfile = \"\"\nunit = \"mm\"\n[part.material]\nyoungs_modulus = \"71 GPa\"\npoisson_ratio = 0.33\n"
       "density = \"2810 kg/m^3\"\n";
   EXPECT_EQ(refusal(part), "case.toml:2:8: part.file: names no file; take a .stl, .step or another surface, or a mesh");
+  const std::string matrices = "[part]\nunit = \"mm\"\nmass_unit = \"t\"\n[part.matrices]\nstiffness = \"\"\n";
+  EXPECT_EQ(refusal(matrices),
+            "case.toml:5:13: part.matrices.stiffness: names no file; take a .mtx, .sti, .mat or "
+            "another file of matrices");
 }
 
 TEST(HostileCase, APipeOrAFolderIsNoDataFile) {
