@@ -195,8 +195,7 @@ bool may_hide_lobe(const Around& at, bool one_motion) {
 /// chord.
 struct Continued {
   double value = 0.0, slope = 0.0, bend = 0.0;
-  double before_rpm =
-      0.0;  ///< distance from the row to the other point of the slope, which lies behind it; < 0: before
+  double before_rpm = 0.0;  ///< from the row back to the other point of the slope; < 0: that lies in the gap
 
   /// At a distance from the row into the gap, rpm.
   [[nodiscard]] double at(double into_rpm) const {
