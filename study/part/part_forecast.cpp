@@ -66,6 +66,7 @@ std::vector<Eigen::Vector3d> held_vertices(const PartInput& source, const mesh::
   for (const fem::Support& support : setup::supports_of(source)) add(support.region, support.name);
   for (const fem::ElasticClamp& clamp : setup::attachments_of(source).clamps) add(clamp.region, clamp.name);
   std::vector<Eigen::Vector3d> at;
+  at.reserve(held.size());
   for (const int vertex : held) at.push_back(mesh.vertices[static_cast<std::size_t>(vertex)]);
   return at;
 }
