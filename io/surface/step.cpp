@@ -122,9 +122,12 @@ Found found_in(const std::string& path, const StepOptions& options) {
     result.fault = "has a face that cannot be triangulated, at " + place(*bad) + "; heal it in the CAD program";
   if (!result.fault.empty()) return result;
   result.soup = triangles_of(shape);
-  GProp_GProps solid;
-  BRepGProp::VolumeProperties(shape, solid);
-  result.soup.solid_volume_m3 = solid.Mass();
+  try {
+    GProp_GProps solid;
+    BRepGProp::VolumeProperties(shape, solid);
+    result.soup.solid_volume_m3 = solid.Mass();
+  } catch (const Standard_Failure&) {  // the triangles serve without
+  }
   return result;
 }
 
