@@ -148,6 +148,10 @@ TEST(HostileCase, APartOfAnEmptyNameIsNoDataFile) {
   EXPECT_EQ(refusal(matrices),
             "case.toml:5:13: part.matrices.stiffness: names no file; take a .mtx, .sti, .mat or "
             "another file of matrices");
+  const std::string tool =
+      "[tool]\nteeth = 2\ndiameter = \"10 mm\"\n[[tool.measured]]\nresponse = \"x\"\nforce = \"x\"\nfile = \"\"\n"
+      "quantity = \"receptance\"\nunit = \"um/N\"\n";
+  EXPECT_NE(refusal(tool).find("case.toml:7:8: tool.measured[0].file: names no file"), std::string::npos);
 }
 
 TEST(HostileCase, APipeOrAFolderIsNoDataFile) {

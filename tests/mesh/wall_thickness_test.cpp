@@ -109,18 +109,13 @@ TEST(SurfaceFeatures, OfARhombicBarAreItsFourSidesToo) {
   EXPECT_EQ(features.lines.size(), 12U);
 }
 
-// A vertex on the face, three micrometres from its border, has rounded coordinates: a sliver beside it turns by 2e-3
-// rad.
-TEST(SurfaceFeatures, OfARoundedBlockHaveNoPatchOfASliver) {
+/// A block of 200 x 100 x 4 mm whose upper face has one more vertex.
+TriangleSurface block_with_vertex(const Eigen::Vector3d& on_top) {
   TriangleSurface block;
-  const Eigen::Matrix3d turn =
-      (Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()))
-          .toRotationMatrix();
   for (const double z : {0.0, 0.004})
     for (const auto& [x, y] : {std::pair{0.0, 0.0}, {0.2, 0.0}, {0.2, 0.1}, {0.0, 0.1}})
       block.vertices.emplace_back(x, y, z);
-  block.vertices.emplace_back(0.1, 3e-6, 0.004 + 6e-9);
-  for (auto& x : block.vertices) x = turn * x;
+  block.vertices.push_back(on_top);
   block.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 8}, {5, 6, 8}, {6, 7, 8}, {7, 4, 8}};
   for (int k = 0; k < 4; ++k) {
     const int next = (k + 1) % 4;
@@ -128,25 +123,18 @@ TEST(SurfaceFeatures, OfARoundedBlockHaveNoPatchOfASliver) {
     block.triangles.push_back({k, next + 4, k + 4});
   }
   require_closed(block);
-  const auto features = surface_features(block, thirty_degrees);
+  return block;
+}
+
+// Three micrometres from the border of the face a coordinate that is rounded turns the sliver beside it by 2e-3 rad.
+TEST(SurfaceFeatures, OfARoundedBlockHaveNoPatchOfASliver) {
+  const auto features = surface_features(block_with_vertex({0.1, 3e-6, 0.004 + 6e-9}), thirty_degrees);
   EXPECT_EQ(features.patches, 6);
   EXPECT_EQ(features.lines.size(), 12U);
 }
 
 TEST(SurfaceFeatures, OfALowPyramidAreItsFourRidgesToo) {
-  TriangleSurface pyramid;
-  for (const double z : {0.0, 0.004})
-    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {0.2, 0.0}, {0.2, 0.1}, {0.0, 0.1}})
-      pyramid.vertices.emplace_back(x, y, z);
-  pyramid.vertices.emplace_back(0.1, 0.05, 0.01);
-  pyramid.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 8}, {5, 6, 8}, {6, 7, 8}, {7, 4, 8}};
-  for (int k = 0; k < 4; ++k) {
-    const int next = (k + 1) % 4;
-    pyramid.triangles.push_back({k, next, next + 4});
-    pyramid.triangles.push_back({k, next + 4, k + 4});
-  }
-  require_closed(pyramid);
-  const auto features = surface_features(pyramid, thirty_degrees);
+  const auto features = surface_features(block_with_vertex({0.1, 0.05, 0.01}), thirty_degrees);
   EXPECT_EQ(features.patches, 9);
   EXPECT_EQ(features.lines.size(), 16U);
 }

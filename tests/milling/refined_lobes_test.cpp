@@ -206,6 +206,36 @@ TEST(RefinedLine, SeesAFoldLobeThatLiesBetweenTwoSpeedsOnAHopfLobe) {
   EXPECT_TRUE(chart.line->met);
 }
 
+/// A row of a motion that turns by so many periods in a turn of a cutter with one tooth.
+LobeRow row_with_periods(double rpm, double periods, bool at_limit) {
+  LobeRow row;
+  row.spindle_speed_rpm = rpm;
+  row.limiting_depth_m = at_limit ? 10e-3 : 9e-3 + 5e-6 * (rpm - 5400.0);
+  row.at_limit = at_limit;
+  row.modulus_at_limit = at_limit ? 0.99 : 0.0;
+  row.chatter_frequency_hz = periods * rpm / 60.0;
+  return row;
+}
+
+TEST(RefinedLine, LooksWhereAMotionPassesTheRealAxis) {
+  MillingProcess process = two_teeth();
+  process.cutter.teeth = 1;
+  const auto gap = [&](const std::vector<double>& periods, bool ends_at_limit) {
+    std::vector<LobeRow> rows;
+    for (std::size_t i = 0; i < periods.size(); ++i)
+      rows.push_back(row_with_periods(5400.0 + 20.0 * static_cast<double>(i), periods[i], ends_at_limit && i == 3));
+    return line_gaps(rows, process)[2];
+  };
+  const LineGap fold = gap({7.09, 7.06, 7.03, 6.99}, false);  // 7 three quarters along the gap of 20 rpm
+  EXPECT_TRUE(std::isinf(fold.error));
+  EXPECT_NEAR(fold.corner_rpm, 5455.0, 0.01);
+  const LineGap no_flip = gap({5.54, 5.53, 5.52, 4.97}, true);  // 5.51 at its end
+  EXPECT_TRUE(std::isfinite(no_flip.error));
+  const LineGap below_limit = gap({5.60, 5.56, 5.52, 4.97}, true);  // 5.5 halfway to 5.48
+  EXPECT_TRUE(std::isinf(below_limit.error));
+  EXPECT_NEAR(below_limit.corner_rpm, 5450.0, 0.01);
+}
+
 TEST(RefinedLine, DoesNotTakeABentLobeForStraightWhereAnotherRunsAboveIt) {
   // 1/w is a parabola, and a deeper crossing lies where the frequencies of two rows point: the lobe seems to part.
   std::vector<LobeRow> rows;
