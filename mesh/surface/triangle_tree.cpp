@@ -175,6 +175,7 @@ TriangleTree::TriangleTree(TriangleTree&&) noexcept = default;
 TriangleTree& TriangleTree::operator=(TriangleTree&&) noexcept = default;
 
 TriangleTree::Nearest TriangleTree::nearest(const Eigen::Vector3d& x) const {
+  if (!x.allFinite()) throw core::InputError("the point nearest to one that is not finite is not known");
   const auto& own = *implementation_;
   Nearest result{own.facets[0].corners[0], own.facets[0].number, 0.0};
   double least = nowhere;

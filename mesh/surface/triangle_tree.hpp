@@ -30,11 +30,12 @@ class TriangleTree {
     int triangle = -1;
     double distance_m = 0.0;
   };
-  /// The point of the surface nearest to x, m.
+  /// The point of the surface nearest to x, m. Throws InputError for an x that is not finite.
   [[nodiscard]] Nearest nearest(const Eigen::Vector3d& x) const;
 
   /// Distance (m) along a unit direction to the first triangle that the ray meets, other than `skipped` (−1: none is
-  /// skipped); empty if it meets none.
+  /// skipped); empty if it meets none. A triangle in whose plane the ray lies is not met; of a closed surface its
+  /// neighbours are.
   [[nodiscard]] std::optional<double> first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                                 int skipped) const;
 

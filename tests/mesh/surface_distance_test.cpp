@@ -70,6 +70,11 @@ TEST(TriangleTree, FindsTheNearestPointAndTheFirstWallThatARayMeets) {
   EXPECT_FALSE(tree.first_hit({0.033, 0.021, 0.008}, {0, 0, 1}, -1).has_value());
 }
 
+TEST(TriangleTree, KnowsNoPointNearestToNowhere) {
+  const TriangleSurface block = block_surface({0.1, 0.06, 0.003}, 0.05);
+  EXPECT_THROW((void)TriangleTree(block).nearest({0.0, NAN, 0.0}), core::InputError);
+}
+
 TEST(TriangleTree, FindsWhatASearchOfAllTrianglesFinds) {
   const TriangleSurface blade = surface(Blade{}, 0.004);
   const TriangleTree tree(blade);
