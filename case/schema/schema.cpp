@@ -95,7 +95,6 @@ constexpr Key case_keys[] = {
     Key{"selections.*.box.max", Type::vector, kind::length, "", any, "", "Largest x, y, z.", required},
     Key{"selections.*.sphere.centre", Type::vector, kind::length, "", any, "", "Centre.", required},
     Key{"selections.*.sphere.radius", Type::quantity, kind::length, "", positive, "", "Radius.", required},
-
     Key{"points.*.at", Type::vector, kind::number, "", fraction, "", "Position in fractions of the box along x, y, z."},
     Key{"points.*.position", Type::vector, kind::length, "", any, "", "Position in the part's axes."},
     Key{"points.*.node", Type::integer, kind::number, "", {0, 2147483647, false, false, false, ""}, "", "Number of the node, of matrices or of a mesh from a file."},
@@ -109,7 +108,6 @@ constexpr Key case_keys[] = {
     Key{"modes.up_to", Type::quantity, kind::frequency, "", positive, "", "All modes up to this frequency."},
     Key{"modes.substructures", Type::integer, kind::number, "", {2, 64, false, false, false, "a power of two"}, "", "In place of block Lanczos on the whole part: so many domains, 2, 4, 8 …, each reduced by Craig-Bampton, with the modes of the interface between them; frequencies are right to 1e-5 by estimate (docs/scaling.md)."},
     Key{"modes.verify", Type::boolean, kind::number, "false", any, "", "Check the modes by a Sturm count, which shows whether one was missed, and by a second eigen-solver."},
-
     Key{"reduction.method", Type::choice, kind::number, "\"craig_bampton\"", any, "craig_bampton", "The method."},
     Key{"reduction.modes", Type::integer, kind::number, "", {0, 2000, false, false, false, ""}, "", "Number of fixed-interface modes."},
     Key{"reduction.up_to", Type::quantity, kind::frequency, "", positive, "", "All fixed-interface modes up to this frequency."},
@@ -264,10 +262,8 @@ constexpr Key case_keys[] = {
     Key{"contacts[].measured[].frequency_variable", Type::text, kind::number, "", any, "", "Beside `variable`: the one with the frequencies, in `frequency_unit`."},
     Key{"contacts[].measured[].from", Type::quantity, kind::frequency, "", not_negative, "", "First line that is used; if not given the first that is believed (docs/theory/measured-frfs.md)."},
     Key{"contacts[].measured[].to", Type::quantity, kind::frequency, "", positive, "", "Last line that is used; if not given the last that is believed."},
-
     Key{"coupling.regularisation", Type::choice, kind::number, "\"none\"", any, "none|truncated|tikhonov", "What becomes of small singular values of the kernel (docs/theory/coupling.md, Eq. 8). `none`: a singular kernel is an error. The spatial route knows no regularisation: the routes then differ where it acts."},
     Key{"coupling.threshold", Type::quantity, kind::number, "1e-10", {0.0, 1.0, true, true, false, "a share of the largest singular value"}, "", "Of the largest singular value: those below are left out (`truncated`) or damped (`tikhonov`)."},
-
     Key{"response.from", Type::quantity, kind::frequency, "\"1 Hz\"", not_negative, "", "First line."},
     Key{"response.to", Type::quantity, kind::frequency, "\"2000 Hz\"", positive, "", "Last line."},
     Key{"response.lines", Type::integer, kind::number, "2000", {2, 1e6, false, false, false, ""}, "", "Number of lines."},
@@ -304,7 +300,6 @@ constexpr Key case_keys[] = {
     Key{"tool.modes[].damping_ratio", Type::quantity, kind::number, "", damping_ratio, "", "Damping ratio.", required},
     Key{"tool.modes[].stiffness", Type::quantity, kind::stiffness, "", positive, "", "Modal stiffness at the tip.", required},
     Key{"tool.modes[].direction", Type::direction, kind::number, "", any, "", "Direction, in the part's axes.", required},
-
     Key{"tool.measured[].response", Type::choice, kind::number, "", any, "x|y|z", "Direction that moves, in the part's axes.", required},
     Key{"tool.measured[].force", Type::choice, kind::number, "", any, "x|y|z", "Direction that is excited. A cross FRF serves its reverse, too, unless that is given.", required},
     Key{"tool.measured[].file", Type::file, kind::number, "", any, "", "CSV (frequency, real part, imaginary part), `.frf`, `.lvm`, Universal File or MAT file. Lines are those of the first file.", required},
@@ -318,7 +313,6 @@ constexpr Key case_keys[] = {
     Key{"tool.measured[].averages", Type::integer, kind::number, "", {1, 1e6, false, false, false, "an average is of one measurement or more"}, "", "In place of `noise`: the number of averages behind the file's coherence, from which the noise follows."},
     Key{"tool.measured[].from", Type::quantity, kind::frequency, "", not_negative, "", "First line that is used; if not given the first that is believed (docs/theory/measured-frfs.md)."},
     Key{"tool.measured[].to", Type::quantity, kind::frequency, "", positive, "", "Last line that is used; if not given the last that is believed."},
-
     Key{"tool.swap.tip", Type::text, kind::number, "\"1\"", any, "", "Name of the tip in the measured FRFs."},
     Key{"tool.swap.up", Type::text, kind::number, "\"1a\"", any, "", "Name of the point up the tool."},
     Key{"tool.swap.distance", Type::quantity, kind::length, "", positive, "", "Of that point from the tip.", required},
