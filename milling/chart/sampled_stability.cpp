@@ -81,7 +81,9 @@ class CrossingGrid {
     const GainOnCircle lines = harmonic_gain(remainder, discrete_.grid, cut_.spindle_speed_rpm);
     return {poles.size,
             [poles, lines](double theta) { return Eigen::MatrixXcd(poles.Z(theta) + lines.Z(theta)); },
-            [poles, lines](double theta) { return Eigen::MatrixXcd(poles.slope(theta) + lines.slope(theta)); },
+            [poles, lines](double theta, const Eigen::VectorXcd& l, const Eigen::VectorXcd& r) {
+              return poles.slope(theta, l, r) + lines.slope(theta, l, r);
+            },
             {}};
   }
 

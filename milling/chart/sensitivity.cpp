@@ -115,14 +115,18 @@ Eigen::MatrixXcd gain_by(Coefficient which, const CutAtSpeed& cut, const Found& 
 /// The gain that is a share of the way from that of one loop to that of another with the same contacts; both must
 /// outlive it.
 GainOnCircle gain_between(const RegenerativeLoop& from, const RegenerativeLoop& to, double share) {
-  const auto between = [&from, &to, share](const auto& of, double theta) {
-    Eigen::MatrixXcd there = of(to, on_circle(theta));
-    if (share < 1.0) there = (share * there + (1.0 - share) * of(from, on_circle(theta))).eval();
+  const auto between = [&from, &to, share](const auto& of) {
+    auto there = of(to);
+    if (share < 1.0) there = share * there + (1.0 - share) * of(from);
     return there;
   };
   return {to.K.rows(),
-          [between](double theta) { return between(loop_gain, theta); },
-          [between](double theta) { return between(loop_gain_slope, theta); },
+          [between](double theta) {
+            return between([&](const RegenerativeLoop& loop) { return loop_gain(loop, on_circle(theta)); });
+          },
+          [between](double theta, const Eigen::VectorXcd& l, const Eigen::VectorXcd& r) {
+            return between([&](const RegenerativeLoop& loop) { return loop_gain_slope(loop, on_circle(theta), l, r); });
+          },
           {}};
 }
 

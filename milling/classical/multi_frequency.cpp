@@ -47,32 +47,38 @@ struct HarmonicLoop {
 
   [[nodiscard]] Index count() const { return -2 * first; }
 
-  /// One matrix a harmonic in front of the force, in the basis of equal times.
-  template <class OfFrequency>
-  [[nodiscard]] MatrixXcd answer(double theta, const OfFrequency& of_frequency) const {
+  /// Z, from one receptance a harmonic in front of the force, in the basis of equal times.
+  [[nodiscard]] MatrixXcd gain(double theta) const {
     const Index p = yielding.cols();
     MatrixXcd motion(p * count(), force.cols());
     for (Index k = 0; k < count(); ++k) {
       const double omega = (theta + 2.0 * pi * static_cast<double>(first + k)) / period_s;
       motion.middleRows(p * k, p).noalias() =
-          (yielding.transpose() * of_frequency(structure, omega)) * force.middleRows(3 * k, 3);
+          (yielding.transpose() * receptance(structure, omega)) * force.middleRows(3 * k, 3);
     }
-    return to_times * motion;
+    return (1.0 - std::polar(1.0, -theta)) * (to_times * motion);
   }
-
-  [[nodiscard]] MatrixXcd gain(double theta) const {
-    return (1.0 - std::polar(1.0, -theta)) * answer(theta, receptance);
-  }
-  [[nodiscard]] MatrixXcd slope(double theta) const {
-    return i_unit * std::polar(1.0, -theta) * answer(theta, receptance) +
-           (1.0 - std::polar(1.0, -theta)) / period_s * answer(theta, receptance_slope);
+  /// lᵀ (dZ/dθ) r.
+  [[nodiscard]] complex<double> slope(double theta, const Eigen::VectorXcd& l, const Eigen::VectorXcd& r) const {
+    const complex<double> past = std::polar(1.0, -theta);
+    const Eigen::VectorXcd seen = to_times.transpose() * l, acting = force * r;
+    const Index p = yielding.cols();
+    complex<double> sum = 0.0;
+    for (Index k = 0; k < count(); ++k) {
+      const double omega = (theta + 2.0 * pi * static_cast<double>(first + k)) / period_s;
+      const Eigen::Matrix3cd change =
+          i_unit * past * receptance(structure, omega) + (1.0 - past) / period_s * receptance_slope(structure, omega);
+      sum += ((yielding * seen.segment(p * k, p)).transpose() * change * acting.segment(3 * k, 3)).value();
+    }
+    return sum;
   }
 };
 
 GainOnCircle gain_of(const std::shared_ptr<const HarmonicLoop>& loop) {
-  return {loop->to_times.rows(), [loop](double theta) { return loop->gain(theta); },
-          [loop](double theta) { return loop->slope(theta); },
-          stops_between((loop->structure.poles * loop->period_s).array().exp())};
+  return {
+      loop->to_times.rows(), [loop](double theta) { return loop->gain(theta); },
+      [loop](double theta, const Eigen::VectorXcd& l, const Eigen::VectorXcd& r) { return loop->slope(theta, l, r); },
+      stops_between((loop->structure.poles * loop->period_s).array().exp())};
 }
 
 /// Values at N equal times of harmonics k + ½, which are real for k and −1 − k alike; p of each.

@@ -35,6 +35,11 @@ linalg::ComplexLu factored(const Eigen::MatrixXcd& Z, complex<double> nu) {
   return linalg::ComplexLu(std::move(shifted));
 }
 
+/// dν/dθ along the circle.
+complex<double> slope_of(const Eigenpair& pair, const GainOnCircle& gain, double theta) {
+  return -gain.slope(theta, pair.left, pair.right) / (pair.left.transpose() * pair.right).value();
+}
+
 /// One inverse iteration on both sides. False if a vector overflows.
 bool improve(const Eigen::MatrixXcd& Z, const linalg::ComplexLu& lu, Eigenpair& pair) {
   pair.right = lu.solve(pair.right).normalized();
@@ -43,7 +48,7 @@ bool improve(const Eigen::MatrixXcd& Z, const linalg::ComplexLu& lu, Eigenpair& 
   return pair.right.allFinite() && pair.left.allFinite() && std::isfinite(std::abs(pair.nu));
 }
 
-/// Inverse iterations on both sides with the shift ν, `solves` of them, then the Rayleigh quotients of Z and dZ/dθ.
+/// Inverse iterations on both sides with the shift ν, `solves` of them, then the Rayleigh quotient of Z and its slope.
 /// False if a vector overflows.
 bool improve(const GainOnCircle& gain, double theta, int solves, Eigenpair& pair) {
   const Eigen::MatrixXcd Z = gain.Z(theta);
@@ -51,7 +56,7 @@ bool improve(const GainOnCircle& gain, double theta, int solves, Eigenpair& pair
   for (int i = 0; i < solves; ++i) {
     if (!improve(Z, lu, pair)) return false;
   }
-  pair.slope = rayleigh_quotient(pair, gain.slope(theta));
+  pair.slope = slope_of(pair, gain, theta);
   return std::isfinite(std::abs(pair.slope));
 }
 
@@ -80,7 +85,7 @@ Eigenpair eigenpair_near(const GainOnCircle& gain, double theta, complex<double>
     for (int solve = 0; solve < solves_of_each; ++solve) {
       if (!improve(Z, lu, pair)) throw not_found();
       if (std::abs(std::exchange(before, pair.nu) - pair.nu) > 1e-12 * std::abs(pair.nu)) continue;
-      pair.slope = rayleigh_quotient(pair, gain.slope(theta));
+      pair.slope = slope_of(pair, gain, theta);
       if (!std::isfinite(std::abs(pair.slope))) throw not_found();
       return pair;
     }

@@ -11,9 +11,11 @@ namespace thinwall::milling {
 /// The loop's gain Z(e^{iθ}) at one speed, 0 ≤ θ ≤ π, however it was come by: from modes (loop_gain) or from a
 /// receptance.
 struct GainOnCircle {
-  Eigen::Index size = 0;                                    ///< contacts
-  std::function<Eigen::MatrixXcd(double theta_rad)> Z;      ///< contacts × contacts, real at 0 and π
-  std::function<Eigen::MatrixXcd(double theta_rad)> slope;  ///< dZ/dθ
+  Eigen::Index size = 0;                                ///< contacts
+  std::function<Eigen::MatrixXcd(double theta_rad)> Z;  ///< contacts × contacts, real at 0 and π
+  /// lᵀ (dZ/dθ) r, for the two vectors that follow the angle: as a number it takes products of vectors only, while the
+  /// matrix dZ/dθ would cost as much as Z.
+  std::function<std::complex<double>(double theta_rad, const Eigen::VectorXcd& l, const Eigen::VectorXcd& r)> slope;
   std::vector<double> stops;  ///< angles in ascending order, 0 to π, between which Z changes moderately
 };
 

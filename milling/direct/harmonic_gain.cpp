@@ -94,15 +94,35 @@ GainOnCircle harmonic_gain(const SampledReceptance& receptance, const ContactGri
   const Harmonics harmonics(last_line_rad_s(receptance), grid, spindle_speed_rpm);
   const auto contacts = static_cast<Index>(grid.contacts.size());
   const auto gain = [&receptance, harmonics, contacts](double theta) {
+    // Harmonics are gathered, and their products made at once: one product of rank three for each would spend its time
+    // on reading and writing Z.
+    constexpr Index gathered = 32;
     Eigen::MatrixXcd Z = Eigen::MatrixXcd::Zero(contacts, contacts);
+    Eigen::MatrixXcd motion(contacts, 3 * gathered), forces(3 * gathered, contacts);
+    Index columns = 0;
+    const auto add = [&] {
+      Z.noalias() += motion.leftCols(columns) * forces.topRows(columns);
+      columns = 0;
+    };
     harmonics.at(theta, [&](double omega, const Eigen::MatrixX3cd& seen, const Eigen::Matrix3Xcd& force) {
-      Z.noalias() += (seen * interpolated(receptance, omega)) * force;
+      motion.middleCols<3>(columns).noalias() = seen * interpolated(receptance, omega);
+      forces.middleRows<3>(columns) = force;
+      columns += 3;
+      if (columns == motion.cols()) add();
     });
+    add();
     return Eigen::MatrixXcd(Z / harmonics.period_s());
   };
-  const auto slope = [gain](double theta) {
+  const auto between = [&receptance, harmonics](double theta, const Eigen::VectorXcd& l, const Eigen::VectorXcd& r) {
+    complex<double> sum = 0.0;
+    harmonics.at(theta, [&](double omega, const Eigen::MatrixX3cd& seen, const Eigen::Matrix3Xcd& force) {
+      sum += ((seen.transpose() * l).transpose() * interpolated(receptance, omega) * (force * r)).value();
+    });
+    return sum / harmonics.period_s();
+  };
+  const auto slope = [between](double theta, const Eigen::VectorXcd& l, const Eigen::VectorXcd& r) {
     constexpr double h = 1e-5;  // rad; the slope steers Newton's rule and need not be exact
-    return Eigen::MatrixXcd((gain(theta + h) - gain(theta - h)) / (2.0 * h));
+    return (between(theta + h, l, r) - between(theta - h, l, r)) / (2.0 * h);
   };
   return {contacts, gain, slope, {}};
 }

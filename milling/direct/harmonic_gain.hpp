@@ -20,7 +20,7 @@ namespace thinwall::milling {
 /// the impulse response loses up to 1 %, its kernel has a kink). Any grid will do; with a helix it is that of one
 /// depth. The result has no stops: it serves to follow a crossing, not to search for one. Its slope is a central
 /// difference. Both arguments must outlive the result. Throws InputError as require_usable(). Cost of a value:
-/// harmonics × contacts².
+/// harmonics × contacts², of a slope harmonics × contacts.
 [[nodiscard]] GainOnCircle harmonic_gain(const SampledReceptance& receptance, const ContactGrid& grid,
                                          double spindle_speed_rpm);
 

@@ -83,7 +83,9 @@ Eigen::VectorXcd log_multiplier_by_z(const Cut& nominal, const std::vector<Uncer
   constexpr double h = 1e-4;
   const GainOnCircle here{d.loop.K.rows(),
                           [&](double) { return loop_gain(d.loop, gain.mu); },
-                          [&](double) { return loop_gain_slope(d.loop, gain.mu); },
+                          [&](double, const Eigen::VectorXcd& l, const Eigen::VectorXcd& r) {
+                            return loop_gain_slope(d.loop, gain.mu, l, r);
+                          },
                           {}};
   const Eigenpair pair = eigenpair_near(here, 1.0, (1.0 + 1e-9) / gain.point.depth_m);
   Eigen::VectorXcd by(z.size());

@@ -187,6 +187,27 @@ Eigen::MatrixXcd seen_motion(const Eigen::MatrixXd& E, const Eigen::MatrixXd& X)
   return result;
 }
 
+/// A real matrix times a complex vector.
+Eigen::VectorXcd product(const Eigen::Ref<const Eigen::MatrixXd>& A, const Eigen::VectorXcd& v) {
+  Eigen::MatrixX2d parts(v.size(), 2);
+  parts << v.real(), v.imag();
+  const Eigen::MatrixX2d result = A * parts;
+  return result.col(0) + complex<double>(0.0, 1.0) * result.col(1);
+}
+
+/// A figure of each pole and of its conjugate.
+struct OfPoles {
+  Eigen::ArrayXcd own, conjugate;
+};
+
+/// (Re X + i Im X) v and (Re X − i Im X) v of [Re X; Im X], 2 poles × contacts.
+OfPoles of_poles(const Eigen::Ref<const Eigen::MatrixXd>& X, const Eigen::VectorXcd& v) {
+  const Eigen::VectorXcd both = product(X, v);
+  const auto re = both.head(both.size() / 2).array(), im = both.tail(both.size() / 2).array();
+  constexpr complex<double> i(0.0, 1.0);
+  return {re + i * im, re - i * im};
+}
+
 }  // namespace
 
 RegenerativeLoop regenerative_loop(const RelativeStructure& structure, const ContactGrid& grid,
@@ -284,22 +305,23 @@ Eigen::MatrixXcd loop_gain(const RegenerativeLoop& loop, complex<double> mu) {
          past * (loop.K_previous.cast<complex<double>>() + seen_motion(loop.E_previous, motion));
 }
 
-Eigen::MatrixXcd loop_gain_slope(const RegenerativeLoop& loop, complex<double> mu) {
+complex<double> loop_gain_slope(const RegenerativeLoop& loop, complex<double> mu, const Eigen::VectorXcd& l,
+                                const Eigen::VectorXcd& r) {
   // dZ/dμ = K⁻/μ² + Σ (E − E⁻/μ) g' L + Σ E⁻ (g/μ²) L + the same of the conjugates, g = share/(μ − Φ)
   const complex<double> past = 1.0 / mu;
-  const Eigen::ArrayXcd resonance = 1.0 / (mu - loop.flow.array());
-  const Eigen::ArrayXcd conjugate_resonance = 1.0 / (mu - loop.flow.array().conjugate());
-  const auto changes = [&](complex<double> of_resonance, complex<double> of_slope) {
-    const auto change = [&](const Eigen::ArrayXcd& r) -> Eigen::ArrayXcd {
-      return loop.share.array() * r * (of_resonance - of_slope * r);
-    };
-    return modal_motion(loop.L, change(resonance), change(conjugate_resonance));
+  const OfPoles seen = of_poles(loop.E.transpose(), l);
+  const OfPoles seen_before = loop.E_previous.size() > 0 ? of_poles(loop.E_previous.transpose(), l) : seen;
+  const OfPoles moved = of_poles(loop.L, r);
+  const auto sum = [&](const Eigen::ArrayXcd& flow, const Eigen::ArrayXcd& e, const Eigen::ArrayXcd& e_before,
+                       const Eigen::ArrayXcd& motion) {
+    const Eigen::ArrayXcd resonance = 1.0 / (mu - flow);
+    return (loop.share.array() * resonance * motion * (past * past * e_before - resonance * (e - past * e_before)))
+        .sum();
   };
-  const complex<double> along = complex<double>(0.0, 1.0) * mu;
-  const Eigen::MatrixXcd K = past * past * before(loop.K, loop.K_previous).cast<complex<double>>();
-  if (loop.K_previous.size() == 0) return along * (K + seen_motion(loop.E, changes(past * past, 1.0 - past)));
-  return along *
-         (K + seen_motion(loop.E, changes(0.0, 1.0)) + seen_motion(loop.E_previous, changes(past * past, -past)));
+  const complex<double> of_K = l.cwiseProduct(product(before(loop.K, loop.K_previous), r)).sum();
+  return complex<double>(0.0, 1.0) * mu *
+         (past * past * of_K + sum(loop.flow.array(), seen.own, seen_before.own, moved.own) +
+          sum(loop.flow.array().conjugate(), seen.conjugate, seen_before.conjugate, moved.conjugate));
 }
 
 }  // namespace thinwall::milling

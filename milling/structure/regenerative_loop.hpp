@@ -48,8 +48,9 @@ struct RegenerativeLoop {
 /// Cost O(contacts² poles).
 [[nodiscard]] Eigen::MatrixXcd loop_gain(const RegenerativeLoop& loop, std::complex<double> mu);
 
-/// The change of the gain along the circle μ = e^{iθ}: dZ/dθ = iμ dZ/dμ, which Newton's rule for a crossing needs. Cost
-/// as that of loop_gain().
-[[nodiscard]] Eigen::MatrixXcd loop_gain_slope(const RegenerativeLoop& loop, std::complex<double> mu);
+/// The change of the gain along the circle μ = e^{iθ} between two vectors: lᵀ (dZ/dθ) r, dZ/dθ = iμ dZ/dμ, which
+/// Newton's rule for a crossing needs. Cost O(contacts (contacts + poles)).
+[[nodiscard]] std::complex<double> loop_gain_slope(const RegenerativeLoop& loop, std::complex<double> mu,
+                                                   const Eigen::VectorXcd& l, const Eigen::VectorXcd& r);
 
 }  // namespace thinwall::milling

@@ -22,7 +22,9 @@ GainOnCircle turning_gain(int& asked) {
             ++asked;
             return Eigen::MatrixXcd(Z(theta));
           },
-          [Z](double theta) { return Eigen::MatrixXcd(std::complex<double>(0.0, 1.0) * Z(theta)); },
+          [Z](double theta, const Eigen::VectorXcd& l, const Eigen::VectorXcd& r) {
+            return std::complex<double>(0.0, 1.0) * (l.transpose() * Z(theta) * r).value();
+          },
           stops_between(Eigen::VectorXcd::Constant(1, 0.5))};
 }
 
@@ -52,7 +54,10 @@ GainOnCircle large_gain() {
   }
   const Eigen::MatrixXcd at_zero = (-(V * turns * V.inverse())).cast<std::complex<double>>();
   const auto Z = [at_zero](double theta) { return Eigen::MatrixXcd(std::polar(1.0, theta) * at_zero); };
-  return {rows, Z, [Z](double theta) { return Eigen::MatrixXcd(std::complex<double>(0.0, 1.0) * Z(theta)); },
+  return {rows, Z,
+          [Z](double theta, const Eigen::VectorXcd& l, const Eigen::VectorXcd& r) {
+            return std::complex<double>(0.0, 1.0) * (l.transpose() * Z(theta) * r).value();
+          },
           stops_between(Eigen::VectorXcd::Constant(1, 0.5))};
 }
 

@@ -257,6 +257,24 @@ TEST(MultiFrequency, TwoDirectionsConvergeToTheDirectMethod) {
   }
 }
 
+TEST(MultiFrequency, TheSlopeOfTheGainBetweenTwoVectorsIsThatOfItsDifferences) {
+  constexpr double h = 1e-5;
+  const RelativeStructure structure = relative_structure(modal_model(two_directions), "P");
+  const MillingProcess process = wall_cut(1e-3);
+  const GainOnCircle gain =
+      multi_frequency_gain(cut_at_speed(structure, process, 3300.0), directional_harmonics(process, 3), 1e-3);
+  Eigen::VectorXcd l(gain.size), r(gain.size);
+  for (Eigen::Index i = 0; i < gain.size; ++i) {
+    l(i) = std::polar(1.0, 0.7 * static_cast<double>(i));
+    r(i) = std::polar(1.0, 1.0 + 0.3 * static_cast<double>(i * i));
+  }
+  for (const double theta : {0.4, 1.7, 2.9}) {
+    const Eigen::MatrixXcd difference = (gain.Z(theta + h) - gain.Z(theta - h)) / (2.0 * h);
+    const complex<double> slope = gain.slope(theta, l, r);
+    EXPECT_NEAR(std::abs(slope - (l.transpose() * difference * r).value()), 0.0, 1e-6 * std::abs(slope));
+  }
+}
+
 TEST(MultiFrequency, TheDeterminantAgreesWithCollocationOfTheSameHarmonics) {
   StabilityOptions sharp;
   sharp.error_tolerance = 1e-8;

@@ -250,6 +250,27 @@ TEST(SampledStability, TheSumOverHarmonicsIsTheGainOfThePolesOnGridsOfAnyCutter)
   }
 }
 
+TEST(SampledStability, TheSlopeOfAGainBetweenTwoVectorsIsThatOfItsDifferences) {
+  constexpr double h = 1e-5;
+  const SampledReceptance lines = sampled(benchmark_structure(), {}, 20.0, 4000.0, 20.0);
+  for (const MillingProcess& process : all_kinds()) {
+    const CutAtSpeed cut = cut_at_speed(benchmark_structure(), process, 9000.0);
+    const DiscreteCut d = discrete(cut, {2, 8}, 1.5e-3);
+    for (const GainOnCircle& gain : {gain_of(d), harmonic_gain(lines, d.grid, 9000.0)}) {
+      Eigen::VectorXcd l(gain.size), r(gain.size);
+      for (Eigen::Index i = 0; i < gain.size; ++i) {
+        l(i) = std::polar(1.0, 0.7 * static_cast<double>(i));
+        r(i) = std::polar(1.0, 1.0 + 0.3 * static_cast<double>(i * i));
+      }
+      for (const double theta : {0.4, 1.7, 2.9}) {
+        const Eigen::MatrixXcd difference = (gain.Z(theta + h) - gain.Z(theta - h)) / (2.0 * h);
+        const std::complex<double> slope = gain.slope(theta, l, r);
+        EXPECT_NEAR(std::abs(slope - (l.transpose() * difference * r).value()), 0.0, 1e-6 * std::abs(slope));
+      }
+    }
+  }
+}
+
 TEST(SampledStability, AnyCutterHasTheRowOfThePoles) {
   StabilityOptions options;
   options.follow = 1.0;
