@@ -37,7 +37,8 @@ double off_axis(std::complex<double> nu) {
 bool leads_to(const GainOnCircle& gain, double theta_rad, std::complex<double> nu, double depth_m) {
   constexpr double same_depth = 0.02, short_way_rad = 0.3;
   Crossing crossing{0.0, theta_rad, 0, {}};
-  return to_axis(gain, nu, crossing) && std::abs(crossing.depth_m / depth_m - 1.0) < same_depth &&
+  // A step of Newton's rule may go too far and the next come back, but not from twice as far.
+  return to_axis(gain, nu, crossing, 2.0 * short_way_rad) && std::abs(crossing.depth_m / depth_m - 1.0) < same_depth &&
          std::abs(crossing.theta_rad - theta_rad) < short_way_rad;
 }
 
@@ -119,8 +120,9 @@ class FineGrids {
   [[nodiscard]] GainOnCircle gain() const { return gain_of(by_all_); }
 
   [[nodiscard]] Open open(double theta_rad, const Eigenpair& pair) const {
+    const std::complex<double> along_vectors = (pair.left.transpose() * pair.right).value();
     const auto change = [&](const DiscreteCut& d) {
-      return rayleigh_quotient(pair, gain_of(d).Z(theta_rad)) - pair.nu;
+      return -loop_gain(d.loop, on_circle(theta_rad), pair.left, pair.right) / along_vectors - pair.nu;
     };
     constexpr double deviations = 5.0;
     Open open;
@@ -187,13 +189,14 @@ double growth_by_near(const FittedStructure& structure, const CutAtSpeed& cut, R
   constexpr double rounding = 1e-9;
   double growth = 0.0;
   for (const auto& [theta_rad, pair] : on_fine_grid(gain, nearest, depth_m)) {
-    if (leads_to(gain, theta_rad, pair.nu, depth_m)) continue;
     const Open open = grids.open(theta_rad, pair);
-    if (!open.finite()) return 1.0;
     const double off = std::abs(pair.nu.imag());
     if (off > 2.0 * open.across) continue;
     const double near_m = 1.0 / (pair.nu.real() + open.along + std::sqrt(2.0 * open.across * off));
     if (near_m >= clearly_below * depth_m) continue;
+    // Asked last, as it takes several factorisations.
+    if (leads_to(gain, theta_rad, pair.nu, depth_m)) continue;
+    if (!open.finite()) return 1.0;
     // A real one is a crossing above the limit, and in the estimate as far as that reaches.
     const bool apart = row.at_limit || off_axis(pair.nu) > rounding;
     growth = std::max(growth, depth_m / near_m - 1.0 - (apart ? 0.0 : row.error_estimate));
@@ -221,7 +224,7 @@ void widen_for_near_crossings(const FittedStructure& structure, const MillingPro
   const double shape_m = process.cutter.depends_on_depth() ? depth_m : 0.0;
   const DiscreteCut d = discrete(cut, coarse, shape_m);
   const GainOnCircle gain = gain_of(d);
-  CriticalDepths search(gain, CriticalDepths::Eigenvalues::all);
+  CriticalDepths search(gain);
   (void)search.up_to(depth_m);
   const double by_near = growth_by_near(structure, cut, coarse, shape_m, nearest_to_axis(search, gain, depth_m), row);
   double widened = row.error_estimate + by_near;

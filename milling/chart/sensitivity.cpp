@@ -23,10 +23,6 @@ using std::complex;
 
 using std::numbers::pi;
 
-complex<double> on_circle(double theta) {
-  return theta == pi ? -1.0 : std::polar(1.0, theta);
-}
-
 /// Mode k alone, without residual.
 RelativeStructure alone(const RelativeStructure& s, Index k) {
   return {s.poles.segment(k, 1), s.phi.col(k), s.b.col(k)};

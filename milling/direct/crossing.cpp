@@ -93,8 +93,9 @@ Eigenpair eigenpair_near(const GainOnCircle& gain, double theta, complex<double>
   throw not_found();
 }
 
-bool to_axis(const GainOnCircle& gain, complex<double> nu, Crossing& crossing) {
+bool to_axis(const GainOnCircle& gain, complex<double> nu, Crossing& crossing, double furthest_rad) {
   double& theta = crossing.theta_rad;
+  const double start = theta;
   const bool at_end = theta == 0.0 || theta == pi;
   Eigenpair pair = started_at(gain.size, nu);
   bool settled = false;
@@ -106,6 +107,7 @@ bool to_axis(const GainOnCircle& gain, complex<double> nu, Crossing& crossing) {
               (std::abs(step) < 1e-11 || std::abs(pair.nu.imag()) < 1e-13 * std::abs(pair.nu));
     if (settled) break;
     theta += step;
+    if (std::abs(theta - start) > furthest_rad) return false;
     pair.nu = pair.nu.real() + pair.slope.real() * step;
   }
   crossing.depth_m = 1.0 / pair.nu.real();

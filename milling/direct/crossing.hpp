@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <complex>
 #include <functional>
+#include <numbers>
 #include <vector>
 
 namespace thinwall::milling {
@@ -54,8 +55,10 @@ struct Eigenpair {
 ///     d|μ|/dw = −(1/w²) Im(dν/dθ) / |dν/dθ|²
 ///
 /// `nu` is the guess of the eigenvalue at crossing.theta_rad. At θ = π (and 0) the angle stays: ν is real there. False
-/// if it does not settle at a positive depth. Cost: some four factorisations of the size of Z.
-[[nodiscard]] bool to_axis(const GainOnCircle& gain, std::complex<double> nu, Crossing& crossing);
+/// if it does not settle at a positive depth, or as soon as a step leads further than `furthest_rad` from where it
+/// began. Cost: some four factorisations of the size of Z.
+[[nodiscard]] bool to_axis(const GainOnCircle& gain, std::complex<double> nu, Crossing& crossing,
+                           double furthest_rad = std::numbers::pi);
 
 /// Moves a crossing to where it lies on another gain (finer nodes), or a guess with any unstable_change to a crossing.
 /// False if it does not settle within a tenth of the depth.

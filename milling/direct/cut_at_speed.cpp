@@ -101,9 +101,8 @@ DiscreteCut discrete(const CutAtSpeed& cut, Resolution resolution, double depth_
 }
 
 GainOnCircle gain_of(const DiscreteCut& d) {
-  const auto on_circle = [](double theta) { return theta == std::numbers::pi ? -1.0 : std::polar(1.0, theta); };
-  return {d.loop.K.rows(), [&d, on_circle](double theta) { return loop_gain(d.loop, on_circle(theta)); },
-          [&d, on_circle](double theta, const Eigen::VectorXcd& l, const Eigen::VectorXcd& r) {
+  return {d.loop.K.rows(), [&d](double theta) { return loop_gain(d.loop, on_circle(theta)); },
+          [&d](double theta, const Eigen::VectorXcd& l, const Eigen::VectorXcd& r) {
             return loop_gain_slope(d.loop, on_circle(theta), l, r);
           },
           stops_between(d.loop.flow)};

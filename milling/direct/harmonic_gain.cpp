@@ -5,6 +5,7 @@
 
 #include "core/interrupt.hpp"
 #include "milling/cut/product_rule.hpp"
+#include "milling/structure/regenerative_loop.hpp"
 
 namespace thinwall::milling {
 
@@ -13,11 +14,6 @@ namespace {
 using Eigen::Index;
 using std::complex;
 using std::numbers::pi;
-
-/// e^{−iθ}, exact at a flip.
-complex<double> a_period_ago(double theta) {
-  return theta == pi ? complex<double>(-1.0) : std::polar(1.0, -theta);
-}
 
 /// The sum over the harmonics at one angle: visit(ω, seen, force) for each, so that
 ///
@@ -41,7 +37,7 @@ class Harmonics {
     const int last = static_cast<int>(std::floor((highest_ * period - theta) / (2.0 * pi)));
     // As many on the negative side, so that the sum is real where it has to be.
     const int first = static_cast<int>(std::ceil((-highest_ * period - theta) / (2.0 * pi)));
-    const complex<double> period_ago = a_period_ago(theta);
+    const complex<double> period_ago = std::conj(on_circle(theta));
     for (int k = first; k <= last; ++k) {
       core::check_interrupt();
       const double omega = (theta + 2.0 * pi * k) / period;
@@ -139,7 +135,7 @@ std::vector<HarmonicWeight> gain_weights(double highest_rad_s, const ContactGrid
 
 Eigen::Matrix3cd static_weight(const ContactGrid& grid, double theta_rad, const Eigen::VectorXcd& l,
                                const Eigen::VectorXcd& r) {
-  const complex<double> period_ago = a_period_ago(theta_rad);
+  const complex<double> period_ago = std::conj(on_circle(theta_rad));
   const Index nodes = grid.node_rad.size();
   Eigen::Matrix3Xcd seen = Eigen::Matrix3Xcd::Zero(3, nodes), force = Eigen::Matrix3Xcd::Zero(3, nodes);
   for (std::size_t i = 0; i < grid.contacts.size(); ++i) {

@@ -326,9 +326,7 @@ class HelicalGrids : public SearchGrids {
   [[nodiscard]] double chatter_frequency_hz(std::size_t level, const Crossing& crossing) override {
     const DiscreteCut d = discrete(cut_, resolution(level, crossing.depth_m), crossing.depth_m);
     const double theta = crossing.theta_rad;
-    // e^{iπ} of floating point has an imaginary part, which would make a flip's motion complex.
-    const complex<double> mu = theta == std::numbers::pi ? complex<double>(-1.0) : std::polar(1.0, theta);
-    return milling::chatter_frequency_hz(cut_, d, theta, modulation(d, crossing.depth_m, mu));
+    return milling::chatter_frequency_hz(cut_, d, theta, modulation(d, crossing.depth_m, on_circle(theta)));
   }
 
  private:

@@ -195,18 +195,47 @@ Eigen::VectorXcd product(const Eigen::Ref<const Eigen::MatrixXd>& A, const Eigen
   return result.col(0) + complex<double>(0.0, 1.0) * result.col(1);
 }
 
-/// A figure of each pole and of its conjugate.
-struct OfPoles {
-  Eigen::ArrayXcd own, conjugate;
+/// One pole, or the conjugate of one, between two vectors: lᵀ E, lᵀ E⁻ and L r.
+struct OfPole {
+  complex<double> flow, seen, seen_before, moved;
 };
 
-/// (Re X + i Im X) v and (Re X − i Im X) v of [Re X; Im X], 2 poles × contacts.
-OfPoles of_poles(const Eigen::Ref<const Eigen::MatrixXd>& X, const Eigen::VectorXcd& v) {
-  const Eigen::VectorXcd both = product(X, v);
-  const auto re = both.head(both.size() / 2).array(), im = both.tail(both.size() / 2).array();
-  constexpr complex<double> i(0.0, 1.0);
-  return {re + i * im, re - i * im};
-}
+/// The matrices of a loop between the vectors l and r, by products of a matrix and a vector.
+struct BetweenVectors {
+  BetweenVectors(const RegenerativeLoop& loop, const Eigen::VectorXcd& l, const Eigen::VectorXcd& r)
+      : K(l.cwiseProduct(product(loop.K, r)).sum()),
+        K_before(loop.K_previous.size() > 0 ? l.cwiseProduct(product(loop.K_previous, r)).sum() : K),
+        loop_(loop),
+        seen_(product(loop.E.transpose(), l)),
+        seen_before_(loop.E_previous.size() > 0 ? product(loop.E_previous.transpose(), l) : seen_),
+        moved_(product(loop.L, r)) {}
+
+  complex<double> K, K_before;  ///< lᵀ K r, lᵀ K⁻ r
+
+  /// Σ share of(k) over the poles and their conjugates.
+  template <typename Of>
+  [[nodiscard]] complex<double> over_poles(Of of) const {
+    complex<double> sum = 0.0;
+    const Index poles = loop_.flow.size();
+    // A pole's row of [Re E, Im E]ᵀ l and [Re L; Im L] r has its real part first; with ±i the other makes E or its
+    // conjugate of it.
+    const auto part = [poles](const Eigen::VectorXcd& v, Index k, double sign) {
+      return v(k) + complex<double>(0.0, sign) * v(poles + k);
+    };
+    for (Index k = 0; k < poles; ++k) {
+      for (const double sign : {1.0, -1.0}) {
+        const complex<double> flow = sign > 0.0 ? loop_.flow(k) : std::conj(loop_.flow(k));
+        sum +=
+            loop_.share(k) * of(OfPole{flow, part(seen_, k, sign), part(seen_before_, k, sign), part(moved_, k, sign)});
+      }
+    }
+    return sum;
+  }
+
+ private:
+  const RegenerativeLoop& loop_;
+  Eigen::VectorXcd seen_, seen_before_, moved_;
+};
 
 }  // namespace
 
@@ -294,6 +323,10 @@ Eigen::MatrixXd period_map(const RegenerativeLoop& loop, double depth_m) {
   return map;
 }
 
+complex<double> on_circle(double theta_rad) {
+  return theta_rad == std::numbers::pi ? complex<double>(-1.0) : std::polar(1.0, theta_rad);
+}
+
 Eigen::MatrixXcd loop_gain(const RegenerativeLoop& loop, complex<double> mu) {
   const complex<double> past = 1.0 / mu;
   const Eigen::ArrayXcd gain = loop.share.array() / (mu - loop.flow.array());
@@ -305,23 +338,24 @@ Eigen::MatrixXcd loop_gain(const RegenerativeLoop& loop, complex<double> mu) {
          past * (loop.K_previous.cast<complex<double>>() + seen_motion(loop.E_previous, motion));
 }
 
+complex<double> loop_gain(const RegenerativeLoop& loop, complex<double> mu, const Eigen::VectorXcd& l,
+                          const Eigen::VectorXcd& r) {
+  const complex<double> past = 1.0 / mu;
+  const BetweenVectors of(loop, l, r);
+  const auto sum = [&](const OfPole& k) { return (k.seen - past * k.seen_before) * k.moved / (mu - k.flow); };
+  return of.K - past * of.K_before + of.over_poles(sum);
+}
+
 complex<double> loop_gain_slope(const RegenerativeLoop& loop, complex<double> mu, const Eigen::VectorXcd& l,
                                 const Eigen::VectorXcd& r) {
   // dZ/dμ = K⁻/μ² + Σ (E − E⁻/μ) g' L + Σ E⁻ (g/μ²) L + the same of the conjugates, g = share/(μ − Φ)
   const complex<double> past = 1.0 / mu;
-  const OfPoles seen = of_poles(loop.E.transpose(), l);
-  const OfPoles seen_before = loop.E_previous.size() > 0 ? of_poles(loop.E_previous.transpose(), l) : seen;
-  const OfPoles moved = of_poles(loop.L, r);
-  const auto sum = [&](const Eigen::ArrayXcd& flow, const Eigen::ArrayXcd& e, const Eigen::ArrayXcd& e_before,
-                       const Eigen::ArrayXcd& motion) {
-    const Eigen::ArrayXcd resonance = 1.0 / (mu - flow);
-    return (loop.share.array() * resonance * motion * (past * past * e_before - resonance * (e - past * e_before)))
-        .sum();
+  const BetweenVectors of(loop, l, r);
+  const auto sum = [&](const OfPole& k) {
+    const complex<double> resonance = 1.0 / (mu - k.flow);
+    return resonance * k.moved * (past * past * k.seen_before - resonance * (k.seen - past * k.seen_before));
   };
-  const complex<double> of_K = l.cwiseProduct(product(before(loop.K, loop.K_previous), r)).sum();
-  return complex<double>(0.0, 1.0) * mu *
-         (past * past * of_K + sum(loop.flow.array(), seen.own, seen_before.own, moved.own) +
-          sum(loop.flow.array().conjugate(), seen.conjugate, seen_before.conjugate, moved.conjugate));
+  return complex<double>(0.0, 1.0) * mu * (past * past * of.K_before + of.over_poles(sum));
 }
 
 }  // namespace thinwall::milling

@@ -40,6 +40,9 @@ struct RegenerativeLoop {
 /// but the largest few are near zero. Shape (2 pairs + real poles + contacts)².
 [[nodiscard]] Eigen::MatrixXd period_map(const RegenerativeLoop& loop, double depth_m);
 
+/// μ = e^{iθ}; −1 exactly at θ = π, where floating point would give it an imaginary part and make Z complex.
+[[nodiscard]] std::complex<double> on_circle(double theta_rad);
+
 /// Z(μ) with c = −w Z c for motion that grows by μ a period, contacts × contacts, m per N/m of depth:
 ///
 ///     Z(μ) = K − K⁻/μ + Σ (E − E⁻/μ)_k L_k / (μ − Φ_k) + the same of the conjugates
@@ -47,6 +50,10 @@ struct RegenerativeLoop {
 /// The boundary of stability is |μ| = 1, so that its depths are the reciprocals of the real positive eigenvalues of −Z.
 /// Cost O(contacts² poles).
 [[nodiscard]] Eigen::MatrixXcd loop_gain(const RegenerativeLoop& loop, std::complex<double> mu);
+
+/// lᵀ Z(μ) r. Cost O(contacts (contacts + poles)).
+[[nodiscard]] std::complex<double> loop_gain(const RegenerativeLoop& loop, std::complex<double> mu,
+                                             const Eigen::VectorXcd& l, const Eigen::VectorXcd& r);
 
 /// The change of the gain along the circle μ = e^{iθ} between two vectors: lᵀ (dZ/dθ) r, dZ/dθ = iμ dZ/dμ, which
 /// Newton's rule for a crossing needs. Cost O(contacts (contacts + poles)).
