@@ -80,8 +80,9 @@ Eigen::VectorXcd above(const Eigen::VectorXcd& values, double least) {
 
 }  // namespace
 
-std::optional<Eigen::VectorXcd> largest_eigenvalues(const Eigen::MatrixXcd& A, double least) {
-  constexpr Index first_look = 12, between_looks = 6;
+std::optional<LargestEigenvalues> largest_eigenvalues(const Eigen::MatrixXcd& A, double least, Index first_look) {
+  constexpr Index earliest_look = 12, between_looks = 6;
+  first_look = std::max(first_look, earliest_look);
   if (!A.allFinite()) return std::nullopt;
   const Index most_steps = A.rows() / 2;
   Krylov krylov = started(A.rows(), most_steps);
@@ -93,7 +94,7 @@ std::optional<Eigen::VectorXcd> largest_eigenvalues(const Eigen::MatrixXcd& A, d
     if (steps < first_look || (steps - first_look) % between_looks != 0) continue;
     const std::optional<Eigen::VectorXcd> now = complex_eigenvalues(krylov.H.topLeftCorner(steps, steps));
     if (!now) return std::nullopt;
-    if (settled(*now, before, least)) return above(*now, least);
+    if (settled(*now, before, least)) return LargestEigenvalues{above(*now, least), steps};
     before = *now;
   }
   return std::nullopt;

@@ -185,7 +185,7 @@ double CriticalDepths::bound_of(Stop& stop) {
 /// True if the largest eigenvalues of Z do and are found in less time than all of them.
 bool CriticalDepths::finds_largest_only(const Stop& stop) const {
   constexpr Index large = 60;
-  return of_large_ == Eigenvalues::reached && stop.Z.rows() >= large;
+  return of_large_ != Eigenvalues::all && stop.Z.rows() >= large;
 }
 
 /// False if no eigenvalue can be larger than `smallest`. Two products tell more than the norm, at a third of the time
@@ -196,14 +196,17 @@ bool CriticalDepths::reaches(Stop& stop, double smallest) const {
   return stop.norm > 2.0 * smallest || finds_largest_only(stop) || bound_of(stop) > smallest;
 }
 
-/// Finds the eigenvalues above `smallest`; those of a large Z down to a part of it, for a search that goes on deeper.
-void CriticalDepths::find_above(Stop& stop, double theta_rad, double smallest) const {
-  constexpr double deeper = 0.4;
+/// Finds the eigenvalues above `smallest`; those of a large Z down to a part of it where the search goes on deeper.
+void CriticalDepths::find_above(Stop& stop, double theta_rad, double smallest) {
+  constexpr double part = 0.4;
+  constexpr Index looks_before = 12;  // two looks before the steps that the last stop has taken
   const bool is_real = theta_rad == 0.0 || theta_rad == pi;
   if (!is_real && finds_largest_only(stop)) {
-    if (const auto largest = linalg::largest_eigenvalues(stop.Z, deeper * smallest)) {
-      stop.nu = -*largest;
-      stop.known_above = deeper * smallest;
+    const double least = of_large_ == Eigenvalues::deeper ? part * smallest : smallest;
+    if (const auto largest = linalg::largest_eigenvalues(stop.Z, least, steps_ - looks_before)) {
+      stop.nu = -largest->values;
+      stop.known_above = least;
+      steps_ = largest->steps;
       return;
     }
   }

@@ -21,8 +21,9 @@ namespace thinwall::milling {
 class CriticalDepths {
  public:
   /// Eigenvalues of a large Z: those that a depth can reach, of which one whose vector the starting vectors lack would
-  /// be missed, for searches whose crossings are counted by the multipliers afterwards; or all, for others.
-  enum class Eigenvalues { reached, all };
+  /// be missed, and a part of those beyond for a search that goes on deeper; or all, where nothing else would tell of
+  /// one that was missed.
+  enum class Eigenvalues { reached, deeper, all };
 
   /// Keeps `gain`, whose references must outlive the search.
   explicit CriticalDepths(GainOnCircle gain, Eigenvalues of_large = Eigenvalues::reached);
@@ -67,7 +68,7 @@ class CriticalDepths {
   static double bound_of(Stop& stop);
   [[nodiscard]] bool finds_largest_only(const Stop& stop) const;
   [[nodiscard]] bool reaches(Stop& stop, double smallest) const;
-  void find_above(Stop& stop, double theta_rad, double smallest) const;
+  void find_above(Stop& stop, double theta_rad, double smallest);
   /// Eigenvalues of −Z that a depth within twice the limit can reach.
   std::vector<Path> reached_at(double theta_rad, double depth_limit_m);
   void between(double from_rad, const std::vector<Path>& from, double to_rad, std::vector<Path>& to, int halvings,
@@ -75,6 +76,7 @@ class CriticalDepths {
 
   GainOnCircle gain_;
   Eigenvalues of_large_;
+  Eigen::Index steps_ = 0;        ///< that the largest eigenvalues of the last stop have taken
   std::map<double, Stop> stops_;  ///< by angle
   std::vector<Crossing> found_;
 };

@@ -106,7 +106,7 @@ FirstCrossing first_crossing(const GainOnCircle& gain, const StabilityOptions& o
   // cut that chatters at a hundredth of it would be dear. A neighbour's depth is passed by a tenth, so that one search
   // is enough where the lobes change little from speed to speed.
   constexpr double step = 1.5;
-  FirstCrossing first{CriticalDepths(gain), {}, 0.0};
+  FirstCrossing first{CriticalDepths(gain, CriticalDepths::Eigenvalues::deeper), {}, 0.0};
   const double expected = 1.1 * options.expected_depth_m.value_or(0.0);
   first.searched_m = (expected > 0.0 ? expected : first.search.none_below_m()) / step;
   do {

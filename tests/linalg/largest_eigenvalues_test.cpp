@@ -54,26 +54,41 @@ TEST(LargestEigenvalues, AreThoseAboveTheBoundAndNoOthers) {
   const Eigen::MatrixXcd A = with_eigenvalues(values);
   for (const Index count : {1, 2, 5, 9}) {
     const double least = 0.5 * (std::abs(values(count - 1)) + std::abs(values(count)));
-    const std::optional<Eigen::VectorXcd> found = largest_eigenvalues(A, least);
+    const std::optional<LargestEigenvalues> found = largest_eigenvalues(A, least);
     ASSERT_TRUE(found) << count;
-    ASSERT_EQ(found->size(), count);
-    EXPECT_LT(worst_distance(values, count, *found), 1e-8) << count;
+    ASSERT_EQ(found->values.size(), count);
+    EXPECT_LT(worst_distance(values, count, found->values), 1e-8) << count;
+  }
+}
+
+TEST(LargestEigenvalues, AreTheSameWhereTheFirstLookIsLate) {
+  const Eigen::VectorXcd values = spiral(120);
+  const Eigen::MatrixXcd A = with_eigenvalues(values);
+  const double least = 0.5 * (std::abs(values(4)) + std::abs(values(5)));
+  const Index steps = largest_eigenvalues(A, least).value().steps;
+  for (const Index first_look : {Index{-3}, steps - 6, steps + 3}) {
+    const std::optional<LargestEigenvalues> found = largest_eigenvalues(A, least, first_look);
+    ASSERT_TRUE(found) << first_look;
+    ASSERT_EQ(found->values.size(), 5);
+    EXPECT_LT(worst_distance(values, 5, found->values), 1e-8) << first_look;
+    // Two looks, six steps apart, have to agree.
+    EXPECT_EQ(found->steps, std::max(steps, first_look + 6)) << first_look;
   }
 }
 
 TEST(LargestEigenvalues, ThatAreDoubleAreFoundTwice) {
   Eigen::VectorXcd values = spiral(90);
   values(1) = values(0);
-  const std::optional<Eigen::VectorXcd> found = largest_eigenvalues(with_eigenvalues(values), 0.5);
+  const std::optional<LargestEigenvalues> found = largest_eigenvalues(with_eigenvalues(values), 0.5);
   ASSERT_TRUE(found);
-  ASSERT_EQ(found->size(), 2);
-  EXPECT_LT((found->array() - values(0)).abs().maxCoeff(), 1e-7);
+  ASSERT_EQ(found->values.size(), 2);
+  EXPECT_LT((found->values.array() - values(0)).abs().maxCoeff(), 1e-7);
 }
 
 TEST(LargestEigenvalues, AreNoneWhereTheBoundIsAboveAll) {
-  const std::optional<Eigen::VectorXcd> found = largest_eigenvalues(with_eigenvalues(spiral(80)), 1.01);
+  const std::optional<LargestEigenvalues> found = largest_eigenvalues(with_eigenvalues(spiral(80)), 1.01);
   ASSERT_TRUE(found);
-  EXPECT_EQ(found->size(), 0);
+  EXPECT_EQ(found->values.size(), 0);
 }
 
 /// A lag that the Krylov space sees late: a shift along the nodes that fades, beside a small loop of its own.
@@ -88,10 +103,10 @@ TEST(LargestEigenvalues, OfAGainWithATransientAreThoseOfTheWholeMatrix) {
   const Eigen::VectorXcd all = complex_eigenvalues(A).value();
   const double largest = all.cwiseAbs().maxCoeff();
   for (const double share : {0.6, 0.3, 0.2, 0.1}) {
-    const std::optional<Eigen::VectorXcd> found = largest_eigenvalues(A, share * largest);
+    const std::optional<LargestEigenvalues> found = largest_eigenvalues(A, share * largest);
     ASSERT_TRUE(found) << share;
-    EXPECT_EQ(found->size(), (all.array().abs() > share * largest).count()) << share;
-    for (const complex<double> nu : *found) EXPECT_LT((all.array() - nu).abs().minCoeff(), 1e-7 * largest);
+    EXPECT_EQ(found->values.size(), (all.array().abs() > share * largest).count()) << share;
+    for (const complex<double> nu : found->values) EXPECT_LT((all.array() - nu).abs().minCoeff(), 1e-7 * largest);
   }
 }
 

@@ -62,7 +62,8 @@ GainOnCircle large_gain() {
 }
 
 TEST(CriticalDepths, OfALargeGainAreFoundByItsLargestEigenvaluesAndDeeperOnesLater) {
-  for (const auto of_large : {CriticalDepths::Eigenvalues::reached, CriticalDepths::Eigenvalues::all}) {
+  using Eigenvalues = CriticalDepths::Eigenvalues;
+  for (const auto of_large : {Eigenvalues::reached, Eigenvalues::deeper, Eigenvalues::all}) {
     CriticalDepths search(large_gain(), of_large);
     for (const auto& [deepest, count] : {std::pair(1.5, 1U), std::pair(3.0, 2U), std::pair(20.0, 5U)}) {
       const std::vector<Crossing> found = search.up_to(deepest);
