@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 using core::UsageError;
 
 /// One file of the command line.
-struct Source {
+struct FrfWord {
   char response = 'x';
   char force = 'x';
   fs::path file;
@@ -40,7 +40,7 @@ bool is_direction(char letter) {
   return letter == 'x' || letter == 'y' || letter == 'z';
 }
 
-Source source_of(const std::string& word) {
+FrfWord source_of(const std::string& word) {
   const auto equals = word.find('=');
   const bool entry = (equals == 1 || equals == 2) && is_direction(word[0]) && is_direction(word[equals - 1]);
   if (!entry) return {'x', 'x', word, false};
@@ -127,7 +127,7 @@ cases::CaseValues modes_values(const io::CsvText& text) {
 }
 
 /// The values of the [[tool.measured]] of that number. `tells_itself`: the format has quantity and unit.
-cases::CaseValues measured_values(const Source& source, std::size_t number, const LobesInput& input,
+cases::CaseValues measured_values(const FrfWord& source, std::size_t number, const LobesInput& input,
                                   bool tells_itself) {
   const bool none_given = input.quantity.empty() && input.unit.empty() && input.frequency_unit.empty();
   if (!(tells_itself && none_given) && (input.quantity.empty() || input.unit.empty())) {
@@ -150,7 +150,7 @@ cases::CaseValues measured_values(const Source& source, std::size_t number, cons
 cases::CaseValues structure_values(const LobesInput& input) {
   cases::CaseValues values;
   for (std::size_t i = 0; i < input.sources.size(); ++i) {
-    const Source source = source_of(input.sources[i]);
+    const FrfWord source = source_of(input.sources[i]);
     if (setup::frf_file_kind(source.file) != setup::FrfFileKind::csv) {
       std::ranges::move(measured_values(source, i, input, true), std::back_inserter(values));
       continue;

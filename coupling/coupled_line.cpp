@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "coupling/kernel.hpp"
 
 namespace thinwall::coupling {
 
@@ -14,8 +15,6 @@ using Complex = std::complex<double>;
 using dynamics::DofTable;
 using dynamics::ResponseModel;
 using Column = std::vector<Term>;
-
-constexpr double singular_above = 1e14;
 
 /// The response or force tables of all components.
 std::vector<const DofTable*> tables(const Components& components, DofTable ResponseModel::*table) {

@@ -6,6 +6,11 @@
 
 namespace thinwall::coupling {
 
+/// Conditions of a kernel (Skeel's, see Kernel) above which it counts as ill-conditioned, so that the result is told
+/// with a warning, and as singular to double precision, so that there is no result.
+inline constexpr double ill_conditioned_above = 1e8;
+inline constexpr double singular_above = 1e14;
+
 /// The treatment of small singular values of the kernel (docs/theory/coupling.md, Eq. 8).
 enum class Regularisation {
   none,       ///< the kernel is used as it is; a singular one is an error

@@ -7,14 +7,13 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "coupling/coupled_line.hpp"
+#include "coupling/kernel.hpp"
 
 namespace thinwall::coupling {
 
 namespace {
 
 using dynamics::ResponseModel;
-
-constexpr double ill_conditioned_above = 1e8;
 
 /// Number of frequency lines that one task computes with one workspace.
 constexpr Eigen::Index block_lines = 64;

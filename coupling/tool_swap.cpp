@@ -22,9 +22,6 @@ using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
-constexpr double ill_conditioned_above = 1e8;
-constexpr double singular_above = 1e14;
-
 std::vector<std::string> names(const DofTable& dofs) {
   std::vector<std::string> all;
   for (const Dof& dof : dofs) all.push_back(dynamics::name(dof));
@@ -32,14 +29,14 @@ std::vector<std::string> names(const DofTable& dofs) {
 }
 
 /// The rows and columns of the measured DOFs in the tool's tables, with their scales.
-struct Measured {
+struct MeasuredDofs {
   std::vector<int> rows, columns;
   Eigen::VectorXd scale;  ///< 1 for a translation, `length` for a rotation
 };
 
 /// The places of the measured DOFs in the tool's tables; what is wrong with them is noted.
-Measured measured_dofs(const ResponseModel& measured, const HeldTool& tool, double length, core::Faults& faults) {
-  Measured found;
+MeasuredDofs measured_dofs(const ResponseModel& measured, const HeldTool& tool, double length, core::Faults& faults) {
+  MeasuredDofs found;
   found.scale.resize(static_cast<Index>(measured.responses.size()));
   const std::vector<std::string> responses = names(tool.free.responses), forces = names(tool.free.forces);
   const auto find = [&](const std::vector<std::string>& all, const std::string& name, std::vector<int>& rows) {
@@ -89,7 +86,7 @@ DofTable holder_dofs(const Contact& joint) {
 }
 
 /// Throws InputError if the measured response equals that of the free tool at every line.
-void require_held(const ResponseModel& measured, const ResponseModel& free, const Measured& of) {
+void require_held(const ResponseModel& measured, const ResponseModel& free, const MeasuredDofs& of) {
   for (std::size_t line = 0; line < measured.H.size(); ++line) {
     const MatrixXcd T_A = free.H[line](of.rows, of.columns);
     if ((T_A - measured.H[line]).norm() > 1e-13 * T_A.norm()) return;
@@ -101,7 +98,7 @@ void require_held(const ResponseModel& measured, const ResponseModel& free, cons
 
 /// The data of tool and joint that every line needs.
 struct Inverse {
-  Measured at_1;
+  MeasuredDofs at_1;
   Joints joint;
   MatrixXd B_response, B_force;  ///< root_columns()
 };

@@ -24,7 +24,7 @@ namespace thinwall::fem {
 
 namespace {
 
-constexpr const char* too_large = "the next model would be too large";
+constexpr const char* next_too_large = "the next model would be too large";
 
 /// One solution, with the quantities that are compared between orders. Where memory is short, the factor and then K and
 /// M are given up while a larger model is solved.
@@ -293,7 +293,7 @@ bool takes_finer_level(Refinement& r) {
     begin_level(r, level, std::move(finer));
   };
   if (!succeeds(r, step)) return false;
-  if (!fitting) r.estimate.held_back_by = too_large;
+  if (!fitting) r.estimate.held_back_by = next_too_large;
   return fitting;
 }
 
@@ -327,7 +327,7 @@ void refine(Refinement& r) {
     }
     if (shape_ends(r) || order == options.last_order) return;
     if (!fits(r.mesh, order + 1, options)) {
-      r.estimate.held_back_by = too_large;
+      r.estimate.held_back_by = next_too_large;
       return;
     }
     if (!succeeds(r, [&r] { raise_order(r); })) return;

@@ -14,7 +14,7 @@ namespace thinwall::identification {
 namespace {
 
 /// Four neighbours of a line, and the weights by which the cubic through them predicts it.
-struct Neighbours {
+struct LinesBeside {
   std::array<Eigen::Index, 4> line{};
   std::array<double, 4> weight{};
 
@@ -25,9 +25,9 @@ struct Neighbours {
   }
 };
 
-Neighbours neighbours_of(const Eigen::VectorXd& hz, Eigen::Index k) {
+LinesBeside lines_beside(const Eigen::VectorXd& hz, Eigen::Index k) {
   const Eigen::Index first = std::clamp<Eigen::Index>(k - 2, 0, hz.size() - 5);
-  Neighbours found;
+  LinesBeside found;
   for (Eigen::Index i = first, n = 0; i < first + 5; ++i) {
     if (i != k) found.line.at(static_cast<std::size_t>(n++)) = i;
   }
@@ -46,7 +46,7 @@ std::vector<Eigen::MatrixXd> squares_off_neighbours(const Eigen::VectorXd& hz, c
   std::vector<Eigen::MatrixXd> squares;
   squares.reserve(H.size());
   for (Eigen::Index k = 0; k < hz.size(); ++k) {
-    const Neighbours beside = neighbours_of(hz, k);
+    const LinesBeside beside = lines_beside(hz, k);
     Eigen::MatrixXcd off = H[static_cast<std::size_t>(k)];
     for (std::size_t i = 0; i < 4; ++i) off -= beside.weight.at(i) * H[static_cast<std::size_t>(beside.line.at(i))];
     squares.emplace_back(off.cwiseAbs2() / beside.spread());

@@ -17,13 +17,13 @@ using std::complex;
 constexpr Index starts = 2;
 
 /// An orthonormal basis V of the Krylov space, and H with A V = V H, of which the last columns of V have no column yet.
-struct Krylov {
+struct Arnoldi {
   Eigen::MatrixXcd V, H;
 };
 
 /// Vectors with a share of every smooth and every rough shape.
-Krylov started(Index n, Index most_steps) {
-  Krylov krylov{Eigen::MatrixXcd(n, most_steps + starts), Eigen::MatrixXcd::Zero(most_steps + starts, most_steps)};
+Arnoldi started(Index n, Index most_steps) {
+  Arnoldi krylov{Eigen::MatrixXcd(n, most_steps + starts), Eigen::MatrixXcd::Zero(most_steps + starts, most_steps)};
   for (Index i = 0; i < n; ++i) {
     const double at = static_cast<double>(i);
     krylov.V(i, 0) = {1.0, std::sin(1.0 + 2.0 * at)};
@@ -37,7 +37,7 @@ Krylov started(Index n, Index most_steps) {
 
 /// Multiplies the vector of this step by A and takes the part of the product that is new as the next one. False if
 /// nothing is new.
-bool extend(const Eigen::MatrixXcd& A, Index step, Krylov& krylov) {
+bool extend(const Eigen::MatrixXcd& A, Index step, Arnoldi& krylov) {
   constexpr double nothing = 1e-14;
   const auto known = krylov.V.leftCols(step + starts);
   Eigen::VectorXcd next = A * krylov.V.col(step);
@@ -85,7 +85,7 @@ std::optional<LargestEigenvalues> largest_eigenvalues(const Eigen::MatrixXcd& A,
   first_look = std::max(first_look, earliest_look);
   if (!A.allFinite()) return std::nullopt;
   const Index most_steps = A.rows() / 2;
-  Krylov krylov = started(A.rows(), most_steps);
+  Arnoldi krylov = started(A.rows(), most_steps);
   Eigen::VectorXcd before;
   for (Index step = 0; step < most_steps; ++step) {
     core::check_interrupt();

@@ -54,7 +54,7 @@ LearningPoint point_of(const std::vector<TappedPosture>& some, const PredictorOp
   return point;
 }
 
-Eigen::MatrixXd places_of(const std::vector<TappedPosture>& postures) {
+Eigen::MatrixXd rows_of_places(const std::vector<TappedPosture>& postures) {
   Eigen::MatrixXd places(std::ssize(postures), postures.front().place.at.size());
   for (std::size_t i = 0; i < postures.size(); ++i)
     places.row(static_cast<Eigen::Index>(i)) = postures[i].place.at.transpose();
@@ -83,13 +83,13 @@ LearningCurves learning_curves(const std::vector<TappedPosture>& postures, Predi
   LearningCurves curves;
   std::vector<TappedPosture> tested, others;
   // Every fourth of an order that spreads: in that of a list they may all lie in one layer of a grid.
-  const std::vector<std::size_t> all = spread_order(places_of(postures));
+  const std::vector<std::size_t> all = spread_order(rows_of_places(postures));
   for (std::size_t i = 0; i < all.size(); ++i)
     (i % tested_in_turn == tested_in_turn - 1 ? tested : others).push_back(postures[all[i]]);
   if (tested.empty() || others.size() < static_cast<std::size_t>(first_count)) return curves;
   curves.tested = static_cast<int>(tested.size());
   std::vector<TappedPosture> ordered;
-  for (const std::size_t i : spread_order(places_of(others))) ordered.push_back(others[i]);
+  for (const std::size_t i : spread_order(rows_of_places(others))) ordered.push_back(others[i]);
   const std::vector<std::size_t> counts = counts_up_to(ordered.size());
   core::Progress progress("learning curves", counts.size() * (nominal ? 2 : 1));
   for (const std::size_t count : counts) {

@@ -11,7 +11,7 @@ namespace thinwall::mesh {
 
 namespace {
 
-using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+using CellPositions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 using Local = std::vector<std::array<std::size_t, 4>>;  ///< tetrahedra by local corners
 
 /// A key of the edge between two nodes, the same in both directions.
@@ -58,7 +58,7 @@ Local local_tets(const CellTopology& cell, const int* nodes) {
 /// The division of all cells of a mesh, with the middles of edges and diagonals that neighbours share.
 class Splitter {
  public:
-  Splitter(const LabelledMesh& labelled, const std::vector<int>& nodes, const Positions& positions)
+  Splitter(const LabelledMesh& labelled, const std::vector<int>& nodes, const CellPositions& positions)
       : labelled_(labelled), nodes_(nodes), positions_(positions) {}
 
   SplitCells split() {
@@ -165,7 +165,7 @@ class Splitter {
 
   const LabelledMesh& labelled_;
   const std::vector<int>& nodes_;
-  const Positions& positions_;
+  const CellPositions& positions_;
   int order_ = 1;
   std::unordered_map<std::uint64_t, int> middle_of_edge_;
   SplitCells result_;
@@ -206,7 +206,7 @@ void require_fitting_faces(const LabelledMesh& labelled, const std::vector<int>&
 
 }  // namespace
 
-SplitCells split_cells(const LabelledMesh& labelled, const std::vector<int>& nodes, const Positions& positions) {
+SplitCells split_cells(const LabelledMesh& labelled, const std::vector<int>& nodes, const CellPositions& positions) {
   SplitCells split = Splitter(labelled, nodes, positions).split();
   const auto is_tet = [](const LabelledCell& cell) { return cell.shape == CellShape::tetrahedron; };
   const auto tets = std::count_if(labelled.cells.begin(), labelled.cells.end(), is_tet);

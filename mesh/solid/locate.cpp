@@ -48,7 +48,7 @@ double diagonal(const TetMesh& mesh) {
 }
 
 /// The point of a triangle nearest to x.
-Eigen::Vector3d nearest_on(const TetMesh& mesh, const BoundaryTriangle& triangle, const Eigen::Vector3d& x) {
+Eigen::Vector3d nearest_on_boundary(const TetMesh& mesh, const BoundaryTriangle& triangle, const Eigen::Vector3d& x) {
   const auto& v = triangle.vertices;
   return nearest_on_triangle(x, vertex(mesh, v[0]), vertex(mesh, v[1]), vertex(mesh, v[2]));
 }
@@ -62,7 +62,7 @@ struct OnBoundary {
 OnBoundary nearest(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary, const Eigen::Vector3d& x) {
   OnBoundary best;
   for (const auto& triangle : boundary) {
-    const Eigen::Vector3d p = nearest_on(mesh, triangle, x);
+    const Eigen::Vector3d p = nearest_on_boundary(mesh, triangle, x);
     if ((p - x).norm() < best.distance_m) best = {&triangle, p, (p - x).norm()};
   }
   return best;
@@ -111,7 +111,7 @@ OnBoundary chosen(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boun
   OnBoundary best = nearest(mesh, boundary, disc.centre_m);
   const double within = best.distance_m + tolerance;
   for (const auto& triangle : boundary) {
-    const Eigen::Vector3d p = nearest_on(mesh, triangle, disc.centre_m);
+    const Eigen::Vector3d p = nearest_on_boundary(mesh, triangle, disc.centre_m);
     const double distance = (p - disc.centre_m).norm();
     if (distance <= within && preferred(disc, normal(mesh, triangle), normal(mesh, *best.triangle)))
       best = {&triangle, p, distance};
@@ -152,7 +152,7 @@ DiscFace disc_face(const TetMesh& mesh, const std::vector<BoundaryTriangle>& bou
     const Eigen::Vector3d n = normal(mesh, triangle);
     if (n.dot(face.normal) > 0.5) face.triangles.push_back(triangle);
     if (!alike(n, face.normal) && std::ranges::none_of(face.others, [&](const auto& o) { return alike(n, o); }) &&
-        (nearest_on(mesh, triangle, face.centre_m) - face.centre_m).norm() <= tolerance)
+        (nearest_on_boundary(mesh, triangle, face.centre_m) - face.centre_m).norm() <= tolerance)
       face.others.push_back(n);
   }
   return face;

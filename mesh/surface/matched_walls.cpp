@@ -163,7 +163,7 @@ std::map<int, std::vector<int>> along_border(const std::vector<std::array<int, 2
 }
 
 /// The border of a face with those of its vertices that may slide: between two patches, on a line without a corner.
-struct Border {
+struct FaceBorder {
   std::map<int, std::vector<int>> neighbours{};
   std::set<int> sliding{};
 };
@@ -174,8 +174,8 @@ std::pair<Vector3d, Vector3d> directions(const TriangleSurface& surface, int v, 
   return {(x[at(v)] - x[at(around[0])]).normalized(), (x[at(around[1])] - x[at(v)]).normalized()};
 }
 
-Border border_of(const Remeshed& r, const PlaneFace& face, const std::vector<std::set<int>>& patches) {
-  Border result{along_border(border(r, face)), {}};
+FaceBorder border_of(const Remeshed& r, const PlaneFace& face, const std::vector<std::set<int>>& patches) {
+  FaceBorder result{along_border(border(r, face)), {}};
   for (const auto& [v, around] : result.neighbours) {
     if (around.size() != 2 || patches[at(v)].size() != 2) continue;
     const auto [before, behind] = directions(r.surface, v, around);
@@ -201,7 +201,7 @@ bool may_move(const Remeshed& r, int v, const Vector3d& x) {
 
 /// The place to which v slides: that of the nearest vertex of the other side, in projection along n, on one of the two
 /// edges beside v, or near them on a curve.
-std::optional<Vector3d> target(const Remeshed& r, int v, const std::vector<int>& around, const Border& other,
+std::optional<Vector3d> target(const Remeshed& r, int v, const std::vector<int>& around, const FaceBorder& other,
                                bool to_sliding, const Vector3d& n, double tolerance) {
   const auto& x = r.surface.vertices;
   const auto [before, behind] = directions(r.surface, v, around);
@@ -228,10 +228,10 @@ void slide_vertices(Remeshed& r, const std::vector<PlaneFace>& faces, const Wall
   const auto patches = patches_at_vertices(r);
   const double tolerance = flat * diagonal(r.surface);
   for (const int f : walls.patches) {
-    const Border own = border_of(r, faces[at(f)], patches);
+    const FaceBorder own = border_of(r, faces[at(f)], patches);
     for (const int g : walls.patches) {
       if (faces[at(f)].normal.dot(faces[at(g)].normal) > 0.0) continue;
-      const Border other = border_of(r, faces[at(g)], patches);
+      const FaceBorder other = border_of(r, faces[at(g)], patches);
       for (const int v : own.sliding) {
         const auto x = target(r, v, own.neighbours.at(v), other, g < f, faces[at(f)].normal, tolerance);
         if (x && may_move(r, v, *x)) r.surface.vertices[at(v)] = *x;

@@ -16,7 +16,7 @@ namespace thinwall::mesh {
 
 namespace {
 
-using Box = Eigen::AlignedBox3d;
+using Box3 = Eigen::AlignedBox3d;
 
 constexpr std::size_t largest_leaf = 4;  // triangles
 constexpr std::size_t deepest = 64;      // levels of a tree that halves at each
@@ -32,7 +32,7 @@ struct Facet {
 /// A node of the tree over facets first to last - 1. A node that is no leaf has its first child behind it and its
 /// second one at `second`.
 struct Node {
-  Box box;
+  Box3 box;
   std::uint32_t first = 0, last = 0;
   std::uint32_t second = 0;  ///< 0 of a leaf
 };
@@ -65,7 +65,7 @@ struct Ray {
   }
 
   /// The distance along the ray at which it enters a box; infinity if it does not.
-  [[nodiscard]] double entry(const Box& box) const {
+  [[nodiscard]] double entry(const Box3& box) const {
     double in = 0.0, out = nowhere;
     for (int k = 0; k < 3; ++k) {
       const double low = box.min()(k) - origin(k), high = box.max()(k) - origin(k);
@@ -106,7 +106,7 @@ struct TriangleTree::Implementation {
 
   /// Adds the node of these facets and those below it, halved by their middles along the longest side of their box.
   void add(std::uint32_t first, std::uint32_t last) {
-    Box box, middles;
+    Box3 box, middles;
     for (std::uint32_t i = first; i < last; ++i) {
       for (const Eigen::Vector3d& x : facets[i].corners) box.extend(x);
       middles.extend(middle(facets[i]));
@@ -179,7 +179,7 @@ TriangleTree::Nearest TriangleTree::nearest(const Eigen::Vector3d& x) const {
   const auto& own = *implementation_;
   Nearest result{own.facets[0].corners[0], own.facets[0].number, 0.0};
   double least = nowhere;
-  own.descend([&](const Box& box) { return box.squaredExteriorDistance(x); },
+  own.descend([&](const Box3& box) { return box.squaredExteriorDistance(x); },
               [&](const Facet& facet) {
                 const auto& [a, b, c] = facet.corners;
                 const Eigen::Vector3d point = nearest_on_triangle(x, a, b, c);
@@ -199,7 +199,7 @@ std::optional<double> TriangleTree::first_hit(const Eigen::Vector3d& origin, con
                                               int skipped) const {
   const Ray ray(origin, direction);
   double least = nowhere;
-  implementation_->descend([&](const Box& box) { return ray.entry(box); },
+  implementation_->descend([&](const Box3& box) { return ray.entry(box); },
                            [&](const Facet& facet) {
                              if (facet.number != skipped) least = std::min(least, ray.meeting(facet));
                              return least;

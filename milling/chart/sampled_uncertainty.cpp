@@ -18,7 +18,7 @@ using std::complex;
 using Matrix9cd = Eigen::Matrix<complex<double>, 9, 9>;
 using Vector9cd = Eigen::Matrix<complex<double>, 9, 1>;
 
-void require_valid(const SampleCovariance& covariance, std::size_t lines) {
+void require_covariances(const SampleCovariance& covariance, std::size_t lines) {
   const auto fail = [](const std::string& what) { throw core::InputError("scatter of a limiting depth: " + what); };
   if (covariance.size() != lines) {
     fail(std::to_string(covariance.size()) + " covariances for " + std::to_string(lines) + " lines; give one a line");
@@ -62,7 +62,7 @@ FittedStructure drawn(FittedStructure structure, const std::vector<Matrix9cd>& f
 }  // namespace
 
 double depth_deviation_m(const std::vector<Eigen::Matrix3cd>& gradient, const SampleCovariance& covariance) {
-  require_valid(covariance, gradient.size());
+  require_covariances(covariance, gradient.size());
   double variance = 0.0;
   for (std::size_t line = 0; line < gradient.size(); ++line) {
     const Vector9cd g = gradient[line].reshaped();
@@ -74,7 +74,7 @@ double depth_deviation_m(const std::vector<Eigen::Matrix3cd>& gradient, const Sa
 DepthScatter sampled_depths(const FittedStructure& structure, const MillingProcess& process, double spindle_speed_rpm,
                             const StabilityOptions& options, const SampleCovariance& covariance, int samples,
                             std::uint64_t seed) {
-  require_valid(covariance, structure.lines.samples.H.size());
+  require_covariances(covariance, structure.lines.samples.H.size());
   if (samples < 2) {
     throw core::InputError("scatter of a limiting depth: " + std::to_string(samples) + " samples; take at least 2");
   }

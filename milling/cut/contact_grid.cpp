@@ -40,14 +40,14 @@ void add_elements(const CutCycle& cycle, Resolution resolution, ContactGrid& gri
 }
 
 /// A share of the displacement at a node.
-struct Moment {
+struct ContactMoment {
   int node = 0;
   bool previous_period = true;
   double weight = 1.0;
 };
 
 /// The displacement at `theta_rad`, which may lie in the previous period, from the nodes of its element.
-std::vector<Moment> past_at(const ContactGrid& grid, double theta_rad) {
+std::vector<ContactMoment> past_at(const ContactGrid& grid, double theta_rad) {
   const bool previous = theta_rad < 0.0;
   const double theta = previous ? theta_rad + grid.period_rad : theta_rad;
   const auto distance = [&](const CutElement& e) { return std::max({0.0, e.from_rad - theta, theta - e.to_rad}); };
@@ -58,7 +58,7 @@ std::vector<Moment> past_at(const ContactGrid& grid, double theta_rad) {
   const Eigen::VectorXd place =
       (grid.node_rad.segment(element->first_node, element->nodes).array() - element->from_rad) / length;
   const Eigen::VectorXd weight = lagrange_polynomials(place, (theta - element->from_rad) / length);
-  std::vector<Moment> past;
+  std::vector<ContactMoment> past;
   for (int i = 0; i < element->nodes; ++i) {
     if (std::abs(weight(i)) > 1e-14) past.push_back({element->first_node + i, previous, weight(i)});
   }
@@ -68,7 +68,7 @@ std::vector<Moment> past_at(const ContactGrid& grid, double theta_rad) {
 /// The force of an edge, or of a height of it, at a node: D [q(t_node) − Σ weight q(past)].
 struct Regeneration {
   Eigen::Matrix3d D;
-  std::vector<Moment> past;
+  std::vector<ContactMoment> past;
 };
 
 /// Adds as many contacts as D has rank, for each of them is a row and a column of the loop's gain. They see the axes as
@@ -92,7 +92,7 @@ void add_by_rank(const Regeneration& one, int node, std::vector<EdgeContact>& co
       if (before.node + 1 == node && chip.dot(before.chip) < 0.0) chip = -chip;
     }
     contacts.push_back({node, one.D * chip, chip, {}});
-    for (const Moment& m : one.past)
+    for (const ContactMoment& m : one.past)
       contacts.back().past.push_back({m.node, m.previous_period, m.weight * contacts.back().chip});
   }
 }
@@ -106,7 +106,7 @@ void add_by_direction(const std::vector<Regeneration>& all, const Eigen::Matrix3
   for (const Regeneration& one : all) {
     size += one.D.norm();
     now += one.D;
-    for (const Moment& m : one.past)
+    for (const ContactMoment& m : one.past)
       before.try_emplace({m.node, m.previous_period}, Eigen::Matrix3d::Zero()).first->second += m.weight * one.D;
   }
   if (size == 0.0) return;
@@ -150,10 +150,10 @@ void add_edge(const Sweep& sweep, const EdgeShape& shape, double s, int node, co
 
 /// The pasts with which a contact sees dq/dφ instead of q: the polynomial of the element has the slope
 /// Σ d_j q(φ_j) at the node, and q − Σ weight q(past) is that slope, in m a rad, with weight = [own node] − d_j.
-std::vector<Moment> slope_at(const ContactGrid& grid, const CutElement& element, int node) {
+std::vector<ContactMoment> slope_at(const ContactGrid& grid, const CutElement& element, int node) {
   const int own = node - element.first_node;
   const Eigen::VectorXd slope = lagrange_slopes(grid.node_rad.segment(element.first_node, element.nodes), own);
-  std::vector<Moment> past;
+  std::vector<ContactMoment> past;
   past.reserve(static_cast<std::size_t>(element.nodes));
   for (int j = 0; j < element.nodes; ++j)
     past.push_back({element.first_node + j, false, (j == own ? 1.0 : 0.0) - slope(j)});
