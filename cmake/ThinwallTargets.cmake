@@ -41,13 +41,17 @@ set(THINWALL_EIGEN_ALIGNMENT EIGEN_MAX_ALIGN_BYTES=32 EIGEN_MAX_STATIC_ALIGN_BYT
 # Headers that nearly every file includes are parsed once for all targets with equal options: thinwall_headers contains
 # them for the libraries. A file must still include all headers that it uses, which the build with sanitizers checks, as it
 # has no precompiled headers (CMAKE_DISABLE_PRECOMPILE_HEADERS).
+# Those of core/ keep Eigen's decompositions and products from being compiled by every file again.
 set(THINWALL_COMMON_HEADERS <Eigen/Geometry> <Eigen/LU> <Eigen/SparseCore> <algorithm> <cmath> <filesystem> <functional>
-                            <map> <memory> <numeric> <optional> <sstream> <string> <vector>)
+                            <map> <memory> <numeric> <optional> <sstream> <string> <vector>
+                            ${PROJECT_SOURCE_DIR}/core/dense_eigenvalues.hpp
+                            ${PROJECT_SOURCE_DIR}/core/dense_products.hpp)
 
 # thinwall_precompiled(<name> <header>...)   makes a target whose precompiled headers other targets reuse
 function(thinwall_precompiled name)
   file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/${name}.cpp CONTENT "// Only for the headers that are parsed with it.\n")
   add_library(${name} OBJECT ${PROJECT_BINARY_DIR}/${name}.cpp)
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_compile_definitions(${name} PRIVATE ${THINWALL_EIGEN_ALIGNMENT})
   target_link_libraries(${name} PRIVATE thinwall_flags Eigen3::Eigen nlohmann_json::nlohmann_json Threads::Threads)
   target_precompile_headers(${name} PRIVATE ${ARGN})

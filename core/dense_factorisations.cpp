@@ -13,3 +13,8 @@ template class Eigen::JacobiSVD<Eigen::MatrixXcd>;
 
 template Eigen::LLT<Eigen::MatrixXd>& Eigen::LLT<Eigen::MatrixXd>::compute(const Eigen::EigenBase<Eigen::MatrixXd>&);
 template Eigen::LDLT<Eigen::MatrixXd>& Eigen::LDLT<Eigen::MatrixXd>::compute(const Eigen::EigenBase<Eigen::MatrixXd>&);
+
+template void Eigen::internal::apply_block_householder_on_the_left(Eigen::Block<Eigen::MatrixXd>&,
+                                                                   const Eigen::Block<Eigen::MatrixXd>&,
+                                                                   const Eigen::VectorBlock<const Eigen::VectorXd>&,
+                                                                   bool);

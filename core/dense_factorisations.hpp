@@ -28,3 +28,8 @@ extern template Eigen::LLT<Eigen::MatrixXd>& Eigen::LLT<Eigen::MatrixXd>::comput
     const Eigen::EigenBase<Eigen::MatrixXd>&);
 extern template Eigen::LDLT<Eigen::MatrixXd>& Eigen::LDLT<Eigen::MatrixXd>::compute(
     const Eigen::EigenBase<Eigen::MatrixXd>&);
+
+// What a product by the orthogonal factor of a QR decomposition takes.
+extern template void Eigen::internal::apply_block_householder_on_the_left(
+    Eigen::Block<Eigen::MatrixXd>&, const Eigen::Block<Eigen::MatrixXd>&,
+    const Eigen::VectorBlock<const Eigen::VectorXd>&, bool);

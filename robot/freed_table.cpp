@@ -137,7 +137,7 @@ FreedTable without_point_mass(const ModalTable& table, const std::string& point,
   const Eigen::MatrixXd left = inertia_left(states, C_p, B_p, mass_kg);
   FreedTable freed{{table.dofs, freed_rows(states, C_p, B_p, mass_kg)}, 1.0};
   const Eigen::VectorXd inertia =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(0.5 * (left + left.transpose())).eigenvalues();
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(Eigen::MatrixXd(0.5 * (left + left.transpose()))).eigenvalues();
   if (inertia.minCoeff() > 0.0 && freed.table.rows.size() != table.rows.size())
     throw core::InputError("without " + core::readable_text(mass_kg, core::kind::mass) + " at \"" + point +
                            "\" a mode of the table no longer oscillates; state the mass that sat there");
