@@ -89,7 +89,7 @@ std::string cause_text(const ContactSummary& contact) {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// "1.02e6 ± 3e3" of the entry (i, j).
-std::string interval(const EntryRows& value, const EntryRows& half_width, std::size_t i, std::size_t j) {
+std::string interval_of(const EntryRows& value, const EntryRows& half_width, std::size_t i, std::size_t j) {
   return fmt::format("{:.5g} ± {:.2g}", value[i][j].value_or(unknown), half_width[i][j].value_or(unknown));
 }
 
@@ -102,11 +102,11 @@ std::string identified_text(const ContactSummary& contact) {
       const std::string entry =
           direction_text(contact.directions[i]) + (i == j ? "" : "/" + direction_text(contact.directions[j]));
       text += fmt::format("    found along {}: {} N/m", entry,
-                          interval(found.stiffness_n_per_m, found.stiffness_half_width_n_per_m, i, j));
+                          interval_of(found.stiffness_n_per_m, found.stiffness_half_width_n_per_m, i, j));
       if (found.damping_half_width_n_s_per_m[i][j] != 0.0)
-        text += ", " + interval(found.damping_n_s_per_m, found.damping_half_width_n_s_per_m, i, j) + " N s/m";
+        text += ", " + interval_of(found.damping_n_s_per_m, found.damping_half_width_n_s_per_m, i, j) + " N s/m";
       if (i == j && found.loss_factor)  // between directions K may be zero
-        text += ", loss factor " + interval(*found.loss_factor, *found.loss_factor_half_width, i, j);
+        text += ", loss factor " + interval_of(*found.loss_factor, *found.loss_factor_half_width, i, j);
       text += fmt::format(" (95 %), {:.0f} of {} lines\n", found.lines_used[i][j].value_or(0.0), found.lines);
     }
   }
