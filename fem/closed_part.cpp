@@ -37,6 +37,7 @@ constexpr double share_of_curves = 0.4;           // of the tolerance, by which 
 constexpr double most_off = 0.02;                 // by volume, of curved elements that are taken nevertheless
 constexpr double most_straight = 30000.0;         // elements, about, beyond which they are
 constexpr double sharp_rad = 0.5235987755982988;  // 30°
+constexpr double untold_ratio = 2.0 / 3.0;  // of errors of successive orders without layers, 0.63 to 0.75 in strips
 
 void validate(const ClosedPartOptions& o) {
   if (!(o.tolerance >= 1e-3 && o.tolerance <= 0.1)) {
@@ -310,6 +311,7 @@ ToleranceOptions steps_of(const mesh::TriangleSurface& surface, const ClosedPart
   steps.last_order = options.last_order;
   steps.levels = options.levels;
   steps.reentrant_edges = has_reentrant_edge(surface);
+  steps.untold_ratio = untold_ratio;
   steps.memory_limit_bytes = options.memory_limit_bytes;
   steps.largest_dofs = options.largest_dofs;
   steps.first_dofs = options.first_dofs;

@@ -100,6 +100,8 @@ void validate(const ToleranceOptions& o) {
   }
   if (o.first_order < 1 || o.last_order <= o.first_order || o.last_order > 6 || o.levels < 1)
     throw core::InputError("orders must rise within 1 to 6, on at least one level");
+  if (!(o.untold_ratio >= 0.5 && o.untold_ratio <= 0.9))
+    throw core::InputError("the ratio of errors that nothing has told yet is outside 0.5 to 0.9");
 }
 
 /// True if the model of this order stays within the bound on degrees of freedom.
@@ -184,7 +186,7 @@ std::pair<Errors, Errors> compared(Refinement& r, int level, const Solution& bel
   RefinementStep step{level, model.nodes.order, model.K.rows(), frequency_change(below.modes, above.modes), {}};
   compare_receptances(below.responses, above.responses, above.modes, r.options.points, step);
   add_step(r, std::move(step));
-  auto errors = errors_of_last_two(r.estimate.steps, r.exponent, r.usual_order);
+  auto errors = errors_of_last_two(r.estimate.steps, r.exponent, {r.options.untold_ratio, r.usual_order});
   for (auto [model, of_it] : {std::pair{&below.model, &errors.first}, std::pair{&above.model, &errors.second}}) {
     add_shape(r.part, *model, *of_it);
     add_substructures(r.options.modes, *of_it);
@@ -394,7 +396,7 @@ Estimate estimate_by_next_order(const Model& model, const Factored& factored, co
   const double least = options.reentrant_edges ? reentrant_edge_exponent : 1.0;
   Estimate estimate;
   estimate.steps = {{0, model.nodes.order, model.K.rows(), {}, {}}, step};
-  Errors errors = errors_of_last_two(estimate.steps, {{least, 1.0}, {least, 1.0}}, 0).first;
+  Errors errors = errors_of_last_two(estimate.steps, {{least, 1.0}, {least, 1.0}}, {}).first;
   add_substructures(options.modes, errors);
   estimate.frequency = errors.frequency;
   estimate.receptance = errors.receptance;

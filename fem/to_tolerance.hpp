@@ -47,7 +47,8 @@ struct ToleranceOptions {
   int first_order = 4;             ///< first order of a level; 1 to 5
   int last_order = 6;              ///< last order of a level; above first_order, to 6
   int levels = 4;
-  bool reentrant_edges = false;     ///< true if the part has a re-entrant edge, beside which errors fall more slowly
+  bool reentrant_edges = false;  ///< true if the part has a re-entrant edge, beside which errors fall more slowly
+  double untold_ratio = 0.5;  ///< of the errors of successive orders, at least, before two changes show it; 0.5 to 0.9
   double memory_limit_bytes = 0.0;  ///< limit for a factor; 0: the memory that is left
   std::int64_t largest_dofs = 0;    ///< no model with more rows than this before supports is solved; 0: no bound
   std::int64_t first_dofs =
@@ -63,7 +64,8 @@ struct ToleranceOptions {
 /// (clamped_edge_exponent()): 0.57 from order 4 to 5 and 0.62 from 5 to 6 for steel. Beside a re-entrant edge λ is
 /// 0.544 for receptances too: 0.65 and 0.70, or less where the last two changes on one mesh show a smooth share of the
 /// error, which falls by thirty an order. Otherwise, and at least, r = 1/2, because the law does not hold at low
-/// orders; with elements graded to all edges r is smaller.
+/// orders; with elements graded to all edges r is smaller. Where the last two changes on one mesh have a larger ratio,
+/// that one is taken, up to 0.9.
 struct Estimate {
   double frequency = 0.0;          ///< largest relative error, that of SolidPart::shape_error included
   double receptance = 0.0;         ///< largest error of a receptance by the largest magnitude; 0 without points

@@ -21,6 +21,13 @@ struct Exponents {
   Exponent frequency, receptance;
 };
 
+/// What is taken for the ratio of the errors of two orders before two changes on one mesh have shown it. Changes of
+/// orders below `usual_order` do not show it, for at the lowest orders thin walls are locked.
+struct Untold {
+  double ratio = 0.5;
+  int usual_order = 0;
+};
+
 /// The relative error to which modes() brings each frequency that it finds by substructures, round-off apart.
 inline constexpr double substructures_error = 1e-5;
 
@@ -39,10 +46,9 @@ struct Errors {
 [[nodiscard]] const RefinementStep* usual_step_before(const std::vector<RefinementStep>& steps, int usual_order);
 
 /// The errors of the last two solutions on one mesh, those of the lower first: (1 + e) d of the lower and e d of the
-/// higher, with d the last changes and e the error of the last order over the last change. Changes of orders below
-/// `usual_order` are not taken for the ratio of two changes.
+/// higher, with d the last changes and e the error of the last order over the last change.
 [[nodiscard]] std::pair<Errors, Errors> errors_of_last_two(const std::vector<RefinementStep>& steps,
-                                                           const Exponents& exponent, int usual_order);
+                                                           const Exponents& exponent, const Untold& untold);
 
 /// The larger of the errors to which so many levels more reduce these at best.
 [[nodiscard]] double error_after(int left, const Errors& errors, const std::vector<RefinementStep>& steps);
