@@ -179,6 +179,10 @@ void tell_size(const cases::Case& source, const setup::PartSize& size, std::ostr
         << '\n';
   out << "  DOFs      about " << rounded(size.dofs) << '\n'
       << "  time      " << about(size.seconds, size.at_least) << " for mesh, modes and reduction on two cores\n";
+  if (size.memory_bytes > 0.0)
+    out << "  memory    up to about "
+        << core::readable_text(std::ceil(size.memory_bytes / 1e8) * 1e8, core::kind::memory)
+        << (setup::kind(*source.part) == setup::ShapeKind::surface ? ", more if a finer mesh is taken\n" : "\n");
 }
 
 void tell_simulation(const study::SimulationForecast& time, std::ostream& out) {

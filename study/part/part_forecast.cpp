@@ -10,6 +10,7 @@
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "fem/closed_part.hpp"
+#include "fem/size/solution_bytes.hpp"
 #include "mesh/lagrange_nodes.hpp"
 #include "mesh/selection.hpp"
 #include "setup/imported_part.hpp"
@@ -135,6 +136,26 @@ double refinement_s(const PartInput& source, const std::vector<Eigen::Vector3d>&
   return first + std::min(further, std::max(0.0, budget - first));
 }
 
+/// The memory that is held at most while orders up to the last one are solved on this mesh, bytes: a solution at its
+/// worst, the one before it, and the program itself with its vectors. 0 for a mesh so large that the orders of its
+/// rows, which this takes, would need more than seconds.
+double most_bytes(const mesh::TetMesh& mesh, int last_order) {
+  constexpr std::size_t most_elements = 50000;
+  if (mesh.tets.size() > most_elements) return 0.0;
+  constexpr double of_program = 1.5e8, vectors = 60.0;
+  const double of_vectors = vectors * sizeof(double) * dofs(mesh, last_order);
+  const double before = last_order > 1 ? fem::solution_bytes(mesh, last_order - 1) : 0.0;
+  return of_program + of_vectors + fem::solution_bytes(mesh, last_order) + before;
+}
+
+/// The highest order of a refinement on this mesh that its bound on degrees of freedom admits.
+int highest_order(const mesh::TetMesh& mesh, int first_order, int last_order) {
+  const auto largest = static_cast<double>(fem::ClosedPartOptions{}.largest_dofs);
+  int order = last_order;
+  while (order > first_order + 1 && dofs(mesh, order) > largest) --order;
+  return order;
+}
+
 /// The first order of a refinement to a tolerance that begins on this mesh.
 int first_order_of(const PartInput& source, const mesh::TetMesh& mesh) {
   fem::ClosedPartOptions options;
@@ -161,7 +182,10 @@ std::optional<setup::PartSize> forecast(const PartInput& source, const std::shar
   const int last = part.mesh.order ? result.order : fem::ClosedPartOptions{}.last_order;
   result.seconds =
       to_tolerance ? refinement_s(source, held, mesh, result.order - 1, last) : solve_s(mesh, result.order);
-  if (is_solved_one_order_higher(part, result.order)) result.seconds += solve_s(mesh, result.order + 1);
+  const bool is_solved_higher = is_solved_one_order_higher(part, result.order);
+  if (is_solved_higher) result.seconds += solve_s(mesh, result.order + 1);
+  result.memory_bytes = most_bytes(
+      mesh, to_tolerance ? highest_order(mesh, result.order - 1, last) : result.order + (is_solved_higher ? 1 : 0));
   return result;
 }
 

@@ -14,7 +14,10 @@
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
 #include "fem/closed_part.hpp"
+#include "fem/size/solution_bytes.hpp"
 #include "mesh/tet_mesh.hpp"
+#include "setup/imported_part.hpp"
+#include "setup/part_geometry.hpp"
 #include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::tests::part_forecast_test {
@@ -48,8 +51,8 @@ TEST(PartForecast, AMeshOfAFileIsSolvedOnceMoreOneOrderHigher) {
   EXPECT_NEAR(forecast_of_block("[part.mesh]\norder = 6\n").seconds, solved_s(6), 1e-12) << "there is none higher";
 }
 
-/// The forecast of n × n × k cubes of 1 mm.
-setup::PartSize forecast_of_blocks(int n, int k) {
+/// A part of n × n × k cubes of 1 mm.
+cases::Case case_of_blocks(int n, int k) {
   const TemporaryFolder folder;
   std::string text = "*NODE\n";
   const auto node = [&](int x, int y, int z) { return std::to_string(1 + x + (n + 1) * (y + (n + 1) * z)); };
@@ -69,11 +72,15 @@ setup::PartSize forecast_of_blocks(int n, int k) {
         text += "\n";
       }
   core::write_file_atomically(folder.path / "blocks.inp", text);
-  const cases::Case source = cases::parse_case(
+  return cases::parse_case(
       "[part]\nfile = \"blocks.inp\"\nunit = \"mm\"\n[part.material]\nyoungs_modulus = \"70 GPa\"\npoisson_ratio = "
       "0.3\ndensity = \"2700 kg/m^3\"\n[[part.supports]]\non = \"z_min\"\n[modes]\ncount = 1\n[damping]\nratio = "
       "0.01\n",
       folder.path);
+}
+
+setup::PartSize forecast_of_blocks(int n, int k) {
+  const cases::Case source = case_of_blocks(n, k);
   return study::forecast(study::part_input(source)).value();
 }
 
@@ -83,6 +90,20 @@ TEST(PartForecast, ABodyTakesLongerThanAWallOfAsManyElementsAndMoreUnknowns) {
   ASSERT_NEAR(body.elements / wall.elements, 1.0, 0.05);
   EXPECT_LT(body.dofs, wall.dofs);
   EXPECT_GT(body.seconds, wall.seconds);
+}
+
+/// A mesh of order 2 is solved at order 3, too, while the matrices and the factor of order 2 are there.
+TEST(PartForecast, TheMemoryIsThatOfBothSolutions) {
+  const cases::Case source = case_of_blocks(6, 6);
+  const mesh::TetMesh& mesh = source.part->imported->mesh->solid.mesh;
+  double held = 0.0;
+  for (const int order : {2, 3}) {
+    const fem::Model model = fem::supported_model(mesh, order, setup::material_of(*source.part), {});
+    held += fem::bytes_of(model.K) + fem::bytes_of(model.M) + fem::factorise(model).factor.statistics().bytes;
+  }
+  const double told = study::forecast(study::part_input(source)).value().memory_bytes;
+  EXPECT_GT(told, held);
+  EXPECT_LT(told, 1.2 * held + 0.2e9) << "the program itself and its vectors";
 }
 
 /// A row of boxes along x, each of six tetrahedra about its diagonal, m.
