@@ -271,6 +271,19 @@ TEST(SampledStability, TheSlopeOfAGainBetweenTwoVectorsIsThatOfItsDifferences) {
   }
 }
 
+TEST(SampledStability, TheGainOfALoopBetweenTwoVectorsIsThatOfItsMatrix) {
+  for (const MillingProcess& process : all_kinds()) {
+    const CutAtSpeed cut = cut_at_speed(benchmark_structure(), process, 9000.0);
+    const DiscreteCut d = discrete(cut, {2, 8}, 1.5e-3);
+    const Eigen::VectorXcd l = Eigen::VectorXcd::LinSpaced(d.loop.K.rows(), {1.0, 0.3}, {-0.4, 1.0});
+    const Eigen::VectorXcd r = l.cwiseAbs2() + std::complex<double>(0.0, 1.0) * l.reverse();
+    for (const std::complex<double> mu : {on_circle(1.7), on_circle(std::numbers::pi), {1.1, 0.4}}) {
+      const std::complex<double> by_matrix = (l.transpose() * loop_gain(d.loop, mu) * r).value();
+      EXPECT_NEAR(std::abs(loop_gain(d.loop, mu, l, r) - by_matrix), 0.0, 1e-12 * std::abs(by_matrix));
+    }
+  }
+}
+
 TEST(SampledStability, AnyCutterHasTheRowOfThePoles) {
   StabilityOptions options;
   options.follow = 1.0;
