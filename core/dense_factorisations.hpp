@@ -29,7 +29,7 @@ extern template Eigen::LLT<Eigen::MatrixXd>& Eigen::LLT<Eigen::MatrixXd>::comput
 extern template Eigen::LDLT<Eigen::MatrixXd>& Eigen::LDLT<Eigen::MatrixXd>::compute(
     const Eigen::EigenBase<Eigen::MatrixXd>&);
 
-// What a product by the orthogonal factor of a QR decomposition takes.
+// The kernel of a product by the orthogonal factor of a QR decomposition.
 extern template void Eigen::internal::apply_block_householder_on_the_left(
     Eigen::Block<Eigen::MatrixXd>&, const Eigen::Block<Eigen::MatrixXd>&,
     const Eigen::VectorBlock<const Eigen::VectorXd>&, bool);

@@ -78,6 +78,7 @@
                                                    ColMajor, 1>;
 
 namespace Eigen::internal {
+/// The scalar of the kernels for complex matrices.
 using Complex = std::complex<double>;
 THINWALL_PRODUCT_KERNELS(extern template)
 }  // namespace Eigen::internal

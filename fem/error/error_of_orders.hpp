@@ -21,7 +21,7 @@ struct Exponents {
   Exponent frequency, receptance;
 };
 
-/// What is taken for the ratio of the errors of two orders before two changes on one mesh have shown it. Changes of
+/// The ratio of the errors of two orders that is assumed before two changes on one mesh have shown it. Changes of
 /// orders below `usual_order` do not show it, for at the lowest orders thin walls are locked.
 struct Untold {
   double ratio = 0.5;
