@@ -191,9 +191,9 @@ double growth_by_near(const FittedStructure& structure, const CutAtSpeed& cut, R
   for (const auto& [theta_rad, pair] : on_fine_grid(gain, nearest, depth_m)) {
     const Open open = grids.open(theta_rad, pair);
     const double off = std::abs(pair.nu.imag());
-    if (off > 2.0 * open.across) continue;
     const double near_m = 1.0 / (pair.nu.real() + open.along + std::sqrt(2.0 * open.across * off));
-    if (near_m >= clearly_below * depth_m) continue;
+    const bool reaches = off <= 2.0 * open.across && near_m < clearly_below * depth_m;
+    if (open.finite() && !reaches) continue;
     // Asked last, as it takes several factorisations.
     if (leads_to(gain, theta_rad, pair.nu, depth_m)) continue;
     if (!open.finite()) return 1.0;
@@ -224,7 +224,7 @@ void widen_for_near_crossings(const FittedStructure& structure, const MillingPro
   const double shape_m = process.cutter.depends_on_depth() ? depth_m : 0.0;
   const DiscreteCut d = discrete(cut, coarse, shape_m);
   const GainOnCircle gain = gain_of(d);
-  CriticalDepths search(gain);
+  CriticalDepths search(gain, CriticalDepths::Eigenvalues::all);
   (void)search.up_to(depth_m);
   const double by_near = growth_by_near(structure, cut, coarse, shape_m, nearest_to_axis(search, gain, depth_m), row);
   double widened = row.error_estimate + by_near;
