@@ -4,7 +4,7 @@
 // linker up to forty copies. The header is among the precompiled headers (cmake/ThinwallTargets.cmake), so that no file
 // has to include it: a file that is compiled without it works as well, with copies of its own.
 //
-// How many rows and columns a kernel takes at once depends on the vector unit, and is taken from Eigen's traits.
+// A kernel takes as many rows and columns at once as suit the vector unit; these numbers are Eigen's traits.
 
 #include <Eigen/Core>
 #include <complex>
