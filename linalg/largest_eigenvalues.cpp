@@ -54,18 +54,17 @@ bool extend(const Eigen::MatrixXcd& A, Index step, Arnoldi& krylov) {
   return length > nothing * before;
 }
 
-/// True if every value of `these` above `least` has one of `others` beside it.
-bool each_has_one(const Eigen::VectorXcd& these, const Eigen::VectorXcd& others, double least) {
-  constexpr double beside = 1e-8;
+/// True if every value of `these` above `least` has one of `others` beside it, `beside` of its modulus away at most.
+bool each_has_one(const Eigen::VectorXcd& these, const Eigen::VectorXcd& others, double least, double beside) {
   return std::ranges::all_of(these, [&](complex<double> nu) {
     return std::abs(nu) <= least || (others.array() - nu).abs().minCoeff() <= beside * std::abs(nu);
   });
 }
 
-bool settled(const Eigen::VectorXcd& now, const Eigen::VectorXcd& before, double least) {
+bool settled(const Eigen::VectorXcd& now, const Eigen::VectorXcd& before, double least, double accuracy) {
   if (before.size() == 0) return false;
   const double above = std::min(least, 0.9 * now.cwiseAbs().maxCoeff());
-  return each_has_one(now, before, above) && each_has_one(before, now, above);
+  return each_has_one(now, before, above, accuracy) && each_has_one(before, now, above, accuracy);
 }
 
 Eigen::VectorXcd above(const Eigen::VectorXcd& values, double least) {
@@ -80,7 +79,8 @@ Eigen::VectorXcd above(const Eigen::VectorXcd& values, double least) {
 
 }  // namespace
 
-std::optional<LargestEigenvalues> largest_eigenvalues(const Eigen::MatrixXcd& A, double least, Index first_look) {
+std::optional<LargestEigenvalues> largest_eigenvalues(const Eigen::MatrixXcd& A, double least, Index first_look,
+                                                      double accuracy) {
   constexpr Index earliest_look = 12, between_looks = 6;
   first_look = std::max(first_look, earliest_look);
   if (!A.allFinite()) return std::nullopt;
@@ -94,7 +94,7 @@ std::optional<LargestEigenvalues> largest_eigenvalues(const Eigen::MatrixXcd& A,
     if (steps < first_look || (steps - first_look) % between_looks != 0) continue;
     const std::optional<Eigen::VectorXcd> now = complex_eigenvalues(krylov.H.topLeftCorner(steps, steps));
     if (!now) return std::nullopt;
-    if (settled(*now, before, least)) return LargestEigenvalues{above(*now, least), steps};
+    if (settled(*now, before, least, accuracy)) return LargestEigenvalues{above(*now, least), steps};
     before = *now;
   }
   return std::nullopt;

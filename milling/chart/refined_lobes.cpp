@@ -14,6 +14,11 @@ namespace thinwall::milling {
 
 namespace {
 
+/// Crossings of added speeds are followed up to this many times the first one, as deep as the lobes of one side of a
+/// gap go on at the other while they matter there: the deeper ones are drawn at the even speeds, and most of a row's
+/// time goes to them.
+constexpr double follow_between = 3.0;
+
 /// A speed to add, and what the line has there.
 struct Added {
   double rpm = 0.0;
@@ -117,12 +122,14 @@ Lobes refined(Lobes chart, const RowAt& row_at, const MillingProcess& process, c
   std::vector<LobeRow>& rows = chart.rows;
   int added = 0;
   std::vector<LineGap> gaps;
+  StabilityOptions between_even = options;
+  between_even.follow = std::min(options.follow, follow_between);
   const auto refine = [&] {
     while (true) {
       gaps = line_gaps(rows, process, line.narrow);
       const auto speeds = next_speeds(rows, gaps, line.tolerance, static_cast<std::size_t>(line.most_added - added));
       if (speeds.empty()) return;
-      insert_rows(rows, speeds, row_at, options, kept);
+      insert_rows(rows, speeds, row_at, between_even, kept);
       added += static_cast<int>(speeds.size());
     }
   };

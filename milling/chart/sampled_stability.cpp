@@ -1,7 +1,6 @@
 #include "milling/chart/sampled_stability.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -50,7 +49,7 @@ class CrossingGrid {
 
   /// A crossing on this grid as a point of a row, with no more known of it than that it is there.
   [[nodiscard]] LobePoint point(const Crossing& crossing) const {
-    const double hz = chatter_frequency_hz(cut_, discrete_, crossing.theta_rad, crossing.mode);
+    const double hz = chatter_frequency_hz(cut_, discrete_.grid, crossing.theta_rad, crossing.mode);
     return {crossing.depth_m, hz, bifurcation_at(crossing.theta_rad), crossing.unstable_change, 1.0};
   }
   /// A point of a row as a guess on this grid.
@@ -153,17 +152,7 @@ std::vector<Eigen::Matrix3cd> gradient_at(const CrossingGrid& grid, const GainOn
   return gain_gradient(lines, grid.grid(), grid.spindle_speed_rpm(), theta, pair.left, pair.right, factor);
 }
 
-/// The largest relative change of a depth by any of some fits; 1 if the crossing is lost.
-template <std::size_t count>
-double largest_change(const CrossingGrid& grid, const Crossing& crossing, const std::array<const Fit*, count>& fits) {
-  double largest = 0.0;
-  for (const Fit* fit : fits) {
-    const std::optional<double> depth_m = grid.depth_by(*fit, crossing);
-    const double change = depth_m ? std::abs(*depth_m / crossing.depth_m - 1.0) : 1.0;
-    largest = std::max(largest, std::isfinite(change) ? change : 1.0);  // the larger of a number and NaN is the number
-  }
-  return largest;
-}
+using Fits = std::vector<const Fit*>;
 
 /// G(ω) of a fit in tool axes, poles and remainder.
 Eigen::Matrix3cd receptance_of(const Fit& fit, double omega) {
@@ -177,17 +166,17 @@ Eigen::Matrix3cd receptance_of(const Fit& fit, double omega) {
 ///     Δν = −(Σ_k W_k : (ΔG(ω_k) − ΔR) + W_static : ΔR) / lᵀ r,      Δw/w = −w Re [(1 + i Re ν_θ/Im ν_θ) Δν]
 ///
 /// Harmonics beyond twice the last line are left out, where the fits differ little from ΔR.
-Eigen::ArrayXd first_order_changes(const CrossingGrid& grid, const Crossing& crossing, const FittedStructure& structure,
-                                   const DepthWeights& weights) {
+Eigen::ArrayXd first_order_changes(const CrossingGrid& grid, const Crossing& crossing, const Fit& of_all,
+                                   const Fits& fits, const DepthWeights& weights) {
   const Eigen::Matrix3cd of_static =
       static_weight(grid.grid(), crossing.theta_rad, weights.pair.left, weights.pair.right);
-  const Fit all = grid.in_tool(structure.all);
+  const Fit all = grid.in_tool(of_all);
   std::vector<Eigen::Matrix3cd> by_all;
   by_all.reserve(weights.harmonics.size());
   for (const auto& [omega, weight] : weights.harmonics) by_all.push_back(receptance_of(all, omega));
-  Eigen::ArrayXd changes(static_cast<Eigen::Index>(structure.without.size()));
+  Eigen::ArrayXd changes(static_cast<Eigen::Index>(fits.size()));
   for (Eigen::Index i = 0; i < changes.size(); ++i) {
-    const Fit fit = grid.in_tool(structure.without[static_cast<std::size_t>(i)]);
+    const Fit fit = grid.in_tool(*fits[static_cast<std::size_t>(i)]);
     const Eigen::Matrix3cd rigid = (fit.poles.R - all.poles.R).cast<complex<double>>();
     complex<double> sum = of_static.cwiseProduct(rigid).sum();
     for (std::size_t k = 0; k < by_all.size(); ++k) {
@@ -199,35 +188,44 @@ Eigen::ArrayXd first_order_changes(const CrossingGrid& grid, const Crossing& cro
   return changes;
 }
 
-/// True if the changes are so small that the error of the first order, their square, does not matter.
-bool small_changes(const Eigen::ArrayXd& changes) {
-  constexpr double small = 0.03;
-  return (changes.abs() <= small).all();
-}
-
-/// The relative changes of a depth by the fits that each leave out a part of the lines, to first order while that will
-/// do, else by following the crossing to each fit. None if it is lost.
-std::optional<Eigen::ArrayXd> changes_without_lines(const CrossingGrid& grid, const Crossing& crossing,
-                                                    const FittedStructure& structure,
-                                                    const std::optional<DepthWeights>& weights) {
+/// The relative changes of a depth by other fits, to first order while they are so small that its error, their square,
+/// does not matter, else by following the crossing to each fit. None if it is lost, or a change is not finite.
+std::optional<Eigen::ArrayXd> changes_by(const CrossingGrid& grid, const Crossing& crossing, const Fit& all,
+                                         const Fits& fits, const std::optional<DepthWeights>& weights, double small) {
   if (weights) {
-    const Eigen::ArrayXd changes = first_order_changes(grid, crossing, structure, *weights);
-    if (small_changes(changes)) return changes;
+    Eigen::ArrayXd changes = first_order_changes(grid, crossing, all, fits, *weights);
+    if ((changes.abs() <= small).all()) return changes;
   }
-  Eigen::ArrayXd changes(static_cast<Eigen::Index>(structure.without.size()));
+  Eigen::ArrayXd changes(static_cast<Eigen::Index>(fits.size()));
   for (Eigen::Index i = 0; i < changes.size(); ++i) {
-    const std::optional<double> at = grid.depth_by(structure.without[static_cast<std::size_t>(i)], crossing);
-    if (!at) return std::nullopt;
+    const std::optional<double> at = grid.depth_by(*fits[static_cast<std::size_t>(i)], crossing);
+    if (!at || !std::isfinite(*at)) return std::nullopt;
     changes(i) = *at / crossing.depth_m - 1.0;
   }
   return changes;
 }
 
+/// What the spacing of the lines and the modes within them leave open of a depth, relative: twice the larger change by
+/// every second line, and the change by the lines within, or that by modes above them if it is larger. 3 if a crossing
+/// is lost.
+double open_by_lines(const CrossingGrid& grid, const Crossing& crossing, const FittedStructure& structure,
+                     const std::optional<DepthWeights>& weights) {
+  constexpr double small = 0.01;  // the square is less than a hundredth of the change
+  const Fits fits{&structure.even, &structure.odd, &structure.within};
+  const std::optional<Eigen::ArrayXd> changes = changes_by(grid, crossing, structure.all, fits, weights, small);
+  if (!changes) return 3.0;
+  const Eigen::ArrayXd by = changes->abs();
+  return 2.0 * std::max(by(0), by(1)) + std::max(by(2), 2.0 * change_by_unseen(structure, weights));
+}
+
 /// The standard deviation of a depth by noise, relative, by jackknife_deviation(). 1 if a crossing is lost.
 double deviation(const CrossingGrid& grid, const Crossing& crossing, const FittedStructure& structure,
                  const std::optional<DepthWeights>& weights) {
+  constexpr double small = 0.03;  // five standard deviations are some ten times their error
   if (structure.without.empty()) return 0.0;
-  const std::optional<Eigen::ArrayXd> changes = changes_without_lines(grid, crossing, structure, weights);
+  Fits fits;
+  for (const Fit& fit : structure.without) fits.push_back(&fit);
+  const std::optional<Eigen::ArrayXd> changes = changes_by(grid, crossing, structure.all, fits, weights, small);
   return changes ? jackknife_deviation(*changes) : 1.0;
 }
 
@@ -316,9 +314,7 @@ void follow_to_lines(const FittedStructure& structure, const CutAtSpeed& cut, Lo
   const double change = by_lines.depth_m / by_poles.depth_m;
   point.depth_m *= change;
   point.error_estimate +=
-      2.0 * largest_change<2>(grid, by_lines, {&structure.even, &structure.odd}) +
-      std::max(largest_change<1>(grid, by_lines, {&structure.within}), 2.0 * change_by_unseen(structure, weights)) +
-      deviations * deviation(grid, by_lines, structure, weights);
+      open_by_lines(grid, by_lines, structure, weights) + deviations * deviation(grid, by_lines, structure, weights);
   if (cut.process.cutter.depends_on_depth()) point.error_estimate += std::abs(change - 1.0);
 }
 

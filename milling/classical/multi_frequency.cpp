@@ -213,7 +213,7 @@ Multiplier harmonic_multiplier(const CutAtSpeed& cut, const std::vector<Eigen::M
     result.status = enough ? StabilityStatus::converged : StabilityStatus::node_limit_reached;
     result.kind = bifurcation_of(result.value);
     result.chatter_frequency_hz =
-        chatter_frequency_hz(cut, d, std::arg(result.value), modulation(d, depth_m, result.value * (1.0 + 1e-9)));
+        chatter_frequency_hz(cut, d.grid, std::arg(result.value), modulation(d, depth_m, result.value * (1.0 + 1e-9)));
     return result;
   }
 }

@@ -200,10 +200,13 @@ bool CriticalDepths::reaches(Stop& stop, double smallest) const {
 void CriticalDepths::find_above(Stop& stop, double theta_rad, double smallest) {
   constexpr double part = 0.4;
   constexpr Index looks_before = 12;  // two looks before the steps that the last stop has taken
+  // Values are followed from stop to stop, over changes of a hundredth and more; to_axis() finds them again to
+  // round-off where a path crosses the axis.
+  constexpr double to_follow = 1e-5;
   const bool is_real = theta_rad == 0.0 || theta_rad == pi;
   if (!is_real && finds_largest_only(stop)) {
     const double least = of_large_ == Eigenvalues::deeper ? part * smallest : smallest;
-    if (const auto largest = linalg::largest_eigenvalues(stop.Z, least, steps_ - looks_before)) {
+    if (const auto largest = linalg::largest_eigenvalues(stop.Z, least, steps_ - looks_before, to_follow)) {
       stop.nu = -largest->values;
       stop.known_above = least;
       steps_ = largest->steps;

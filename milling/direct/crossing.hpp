@@ -5,6 +5,7 @@
 #include <complex>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 namespace thinwall::milling {
@@ -26,6 +27,8 @@ struct Crossing {
   double theta_rad = 0.0;   ///< arg μ, 0 to π
   int unstable_change = 0;  ///< multipliers that leave the circle: +2, −2 (Hopf), +1, −1 (flip, fold)
   Eigen::VectorXcd mode;    ///< c, the contacts' modulation of the motion, up to a factor
+  std::optional<std::complex<double>> by_depth = {};  ///< ∂ν/∂w at this angle, as far as the depth shapes the cut and
+                                                      ///< as it was last found; m⁻²
 };
 
 /// An eigenvalue ν of −Z(e^{iθ}), its vectors on both sides and its change along the circle.

@@ -182,11 +182,12 @@ bool stable(const DiscreteCut& d, double depth_m) {
   return powers_vanish(period_map(d.loop, depth_m)) || unstable(d, depth_m) == 0;
 }
 
-double chatter_frequency_hz(const CutAtSpeed& cut, const DiscreteCut& d, double theta, const Eigen::VectorXcd& c) {
+double chatter_frequency_hz(const CutAtSpeed& cut, const ContactGrid& grid, double theta, const Eigen::VectorXcd& c) {
   double fastest = 0.0;
   for (const complex<double> pole : cut.structure.poles) fastest = std::max(fastest, std::abs(pole));
   const auto at = [&](double omega) { return receptance(cut.structure, omega); };
-  return chatter_frequency_hz(d.grid, d.loop.period_s, at, 1.5 * fastest, theta, c);
+  const double period_s = grid.period_rad * 30.0 / (std::numbers::pi * cut.spindle_speed_rpm);
+  return chatter_frequency_hz(grid, period_s, at, 1.5 * fastest, theta, c);
 }
 
 Eigen::VectorXcd modulation(const DiscreteCut& d, double depth_m, complex<double> mu) {

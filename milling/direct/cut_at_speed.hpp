@@ -77,7 +77,7 @@ struct DiscreteCut {
 [[nodiscard]] bool stable(const DiscreteCut& d, double depth_m);
 
 /// The chatter frequency of chatter_frequency.hpp, from the poles.
-[[nodiscard]] double chatter_frequency_hz(const CutAtSpeed& cut, const DiscreteCut& d, double theta_rad,
+[[nodiscard]] double chatter_frequency_hz(const CutAtSpeed& cut, const ContactGrid& grid, double theta_rad,
                                           const Eigen::VectorXcd& c);
 
 /// The modulation that belongs to a multiplier at a depth: the null vector of I + w Z(μ).

@@ -47,6 +47,9 @@ complex<double> change_with_depth(const CutAtSpeed& cut, Resolution resolution, 
 
 constexpr int most_steps = 12;  // of Newton's rule
 
+/// Times the first crossing: one this near may turn out to be the first on a finer grid.
+constexpr double clearly_beyond = 1.1;
+
 /// A step of Newton's rule for angle and depth together, and what it started from.
 struct NewtonStep {
   double depth_m = 0.0, theta_rad = 0.0;
@@ -90,8 +93,9 @@ bool settled(const CutAtSpeed& cut, Resolution resolution, double from_m, double
     const complex<double> miss = at.pair.nu - 1.0 / depth;
     at.miss = std::abs(miss) * depth;
     if (step > 0 && at.miss > 0.5 * before.miss && ++not_nearer == patience) return false;
-    const std::optional<complex<double>> by_secant = secant(before, at);
-    at.by_depth = by_secant ? *by_secant : change_with_depth(cut, resolution, depth, theta, gain, at.pair);
+    // A grid of another fineness changes the eigenvalue, but hardly how it changes with the depth.
+    const std::optional<complex<double>> known = step == 0 ? crossing.by_depth : secant(before, at);
+    at.by_depth = known ? *known : change_with_depth(cut, resolution, depth, theta, gain, at.pair);
     const complex<double> by_depth = at.by_depth + 1.0 / (depth * depth);
     Eigen::Matrix2d rows;
     rows << at.pair.slope.real(), by_depth.real(), at.pair.slope.imag(), by_depth.imag();
@@ -107,7 +111,8 @@ bool settled(const CutAtSpeed& cut, Resolution resolution, double from_m, double
     const double left = std::min(1.0, at.miss / before.miss) * std::max(length, at.miss);
     if ((length <= tolerance || left <= tolerance) && at.miss <= 100.0 * std::max(length, tolerance)) {
       const double leaves = -(i * by_depth / at.pair.slope).real();
-      crossing = {depth + change(1), theta + change(0), (at_end ? 1 : 2) * (leaves > 0.0 ? 1 : -1), at.pair.right};
+      crossing = {depth + change(1), theta + change(0), (at_end ? 1 : 2) * (leaves > 0.0 ? 1 : -1), at.pair.right,
+                  at.by_depth};
       return crossing.depth_m <= height;
     }
     // ν is known near here only: the depth moves by a tenth at most, the angle by half a radian.
@@ -150,7 +155,8 @@ bool is_free(complex<double> mu, const Eigen::VectorXcd& flow) {
 /// The search for the crossings of a speed on grids of one resolution, so many times finer than is needed.
 class HelicalSearch {
  public:
-  HelicalSearch(const CutAtSpeed& cut, std::size_t refinements) : cut_(cut), refinements_(refinements) {}
+  HelicalSearch(const CutAtSpeed& cut, std::size_t refinements, const StabilityOptions& options)
+      : cut_(cut), refinements_(refinements), first_alone_(options.follow == 1.0) {}
 
   [[nodiscard]] Resolution resolution(double depth_m) const {
     return finer_by(resolving(cut_, std::min(depth_m, cut_.process.cutter.envelope.height_m)), refinements_);
@@ -233,10 +239,17 @@ class HelicalSearch {
     // Guesses that lead nowhere come no nearer twice as a rule, of the others one in thirty. While the cut is stable
     // that one may be a crossing of which the frozen cut has no sign.
     const int patience = low.unstable > 0 ? 2 : most_steps;
-    const auto explained = [&] { return change == high.unstable - low.unstable; };
+    int change_of_guesses = 0;
+    bool first_known = false;
+    const auto explained = [&] { return first_known || change == high.unstable - low.unstable; };
     const auto add_from = [&](const std::vector<Crossing>& guesses) {
       for (const Crossing& guess : guesses) {
-        if (low.unstable > 0 && explained()) return;
+        // Where the first crossing alone is wanted, those clearly beyond it need not be found once all guesses up to
+        // there are: the row is checked below it.
+        first_known = first_alone_ && low.unstable == 0 && !inside.empty() && change == change_of_guesses &&
+                      guess.depth_m > clearly_beyond * inside.front().depth_m;
+        if (first_known || (low.unstable > 0 && explained())) return;
+        change_of_guesses += guess.unstable_change;
         Crossing c = guess;
         if (!settle(cut_, resolution(high.depth_m), 0.9 * low.depth_m, 1.1 * high.depth_m, patience, c)) continue;
         if (c.depth_m <= low.depth_m || c.depth_m > high.depth_m || is_known(c, inside)) continue;
@@ -274,14 +287,16 @@ class HelicalSearch {
 
   const CutAtSpeed& cut_;
   std::size_t refinements_;
+  bool first_alone_;
 };
 
-/// The depth to look at next. Where only the first crossing is wanted and a neighbour's is shallow beside the first
-/// step, the first look goes a fifth beyond that: a search costs an eigenvalue problem at every stop that its depth can
-/// reach.
+/// The depth to look at next. Where few crossings beyond the first are wanted and a neighbour's is shallow beside the
+/// first step, the first look goes a fifth beyond that: a search costs an eigenvalue problem at every stop that its
+/// depth can reach.
 double next_look(const HelicalSearch& search, double depth_m, const StabilityOptions& options) {
+  constexpr double few = 3.0;  // times the first
   const double next = search.next_depth(depth_m);
-  if (depth_m > 0.0 || options.follow != 1.0 || !options.expected_depth_m) return next;
+  if (depth_m > 0.0 || options.follow > few || !options.expected_depth_m) return next;
   const double near = 1.2 * *options.expected_depth_m;
   return near > 0.0 && near < 0.5 * next ? near : next;
 }
@@ -298,6 +313,10 @@ CoarseCrossings scan(const HelicalSearch& search, const StabilityOptions& option
     std::ranges::sort(result.found, {}, &Crossing::depth_m);
     if (!explained) break;
     low = std::move(*high);
+  }
+  if (options.follow == 1.0 && !result.found.empty()) {
+    result.searched_m = wanted_m(result.found, options);
+    std::erase_if(result.found, [&](const Crossing& c) { return c.depth_m > clearly_beyond * result.searched_m; });
   }
   return result;
 }
@@ -323,10 +342,18 @@ class HelicalGrids : public SearchGrids {
   [[nodiscard]] int unstable(std::size_t level, double depth_m) override {
     return milling::unstable(discrete(cut_, resolution(level, depth_m), depth_m), depth_m);
   }
+  [[nodiscard]] bool stable(std::size_t level, double depth_m) override {
+    return milling::stable(discrete(cut_, resolution(level, depth_m), depth_m), depth_m);
+  }
   [[nodiscard]] double chatter_frequency_hz(std::size_t level, const Crossing& crossing) override {
-    const DiscreteCut d = discrete(cut_, resolution(level, crossing.depth_m), crossing.depth_m);
+    const Resolution on = resolution(level, crossing.depth_m);
     const double theta = crossing.theta_rad;
-    return milling::chatter_frequency_hz(cut_, d, theta, modulation(d, crossing.depth_m, on_circle(theta)));
+    const ContactGrid grid = contact_grid(cut_.process, cut_.yielding, on, crossing.depth_m);
+    // The mode is that of the last step of Newton's rule, whose grid is this one unless a stretch of the cut began.
+    if (static_cast<std::size_t>(crossing.mode.size()) == grid.contacts.size())
+      return milling::chatter_frequency_hz(cut_, grid, theta, crossing.mode);
+    const DiscreteCut d = discrete(cut_, on, crossing.depth_m);
+    return milling::chatter_frequency_hz(cut_, d.grid, theta, modulation(d, crossing.depth_m, on_circle(theta)));
   }
 
  private:
@@ -345,7 +372,7 @@ class HelicalGrids : public SearchGrids {
 
 /// The row of a search on grids that are so many times finer than is needed.
 LobeRow row_of(const CutAtSpeed& cut, std::size_t refinements, const StabilityOptions& options) {
-  const HelicalSearch search(cut, refinements);
+  const HelicalSearch search(cut, refinements, options);
   CoarseCrossings coarse = scan(search, options);
   const bool ended_early = coarse.found.empty() && coarse.searched_m < options.depth_limit_m;
   LobeRow row;

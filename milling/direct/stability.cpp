@@ -51,7 +51,7 @@ class PoleGrids : public FixedGrids {
     return milling::stable((*this)[level], depth_m);
   }
   [[nodiscard]] double chatter_frequency_hz(std::size_t level, const Crossing& crossing) override {
-    return milling::chatter_frequency_hz(cut_, (*this)[level], crossing.theta_rad, crossing.mode);
+    return milling::chatter_frequency_hz(cut_, (*this)[level].grid, crossing.theta_rad, crossing.mode);
   }
 
  private:
@@ -96,8 +96,8 @@ Multiplier multiplier_of(const CutAtSpeed& cut, double depth_m, const StabilityO
     if (!enough && grids.more_after(level)) continue;
     result.status = enough ? StabilityStatus::converged : StabilityStatus::node_limit_reached;
     result.kind = bifurcation_of(result.value);
-    result.chatter_frequency_hz =
-        chatter_frequency_hz(cut, fine, std::arg(result.value), modulation(fine, depth_m, result.value * (1.0 + 1e-9)));
+    result.chatter_frequency_hz = chatter_frequency_hz(cut, fine.grid, std::arg(result.value),
+                                                       modulation(fine, depth_m, result.value * (1.0 + 1e-9)));
     return result;
   }
 }

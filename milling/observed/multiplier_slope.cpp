@@ -55,7 +55,7 @@ Deciding deciding_of(const CutAtSpeed& cut, const DiscreteCut& d, double depth_m
   for (const complex<double>& mu : descending(multipliers(d, depth_m))) {
     const double growth = std::log(std::abs(mu)) / T;
     if (growth / fastest <= best.margin) break;
-    const double hz = chatter_frequency_hz(cut, d, std::arg(mu), modulation(d, depth_m, mu * (1.0 + 1e-9)));
+    const double hz = chatter_frequency_hz(cut, d.grid, std::arg(mu), modulation(d, depth_m, mu * (1.0 + 1e-9)));
     const double near = decay_near(poles, hz);
     const double decay = growth < 0.0 ? decay_unless_free(own, poles, mu, T, near) : near;
     if (growth / decay > best.margin) best = {mu, hz, decay, growth / decay};

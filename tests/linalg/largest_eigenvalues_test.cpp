@@ -76,6 +76,20 @@ TEST(LargestEigenvalues, AreTheSameWhereTheFirstLookIsLate) {
   }
 }
 
+TEST(LargestEigenvalues, TakeFewerStepsToALesserAccuracyWhichTheyKeep) {
+  const Eigen::VectorXcd values = spiral(120);
+  const Eigen::MatrixXcd A = with_eigenvalues(values);
+  const double least = 0.5 * (std::abs(values(4)) + std::abs(values(5)));
+  const Index steps = largest_eigenvalues(A, least).value().steps;
+  for (const double accuracy : {1e-3, 1e-5}) {
+    const std::optional<LargestEigenvalues> found = largest_eigenvalues(A, least, 0, accuracy);
+    ASSERT_TRUE(found) << accuracy;
+    ASSERT_EQ(found->values.size(), 5);
+    EXPECT_LT(worst_distance(values, 5, found->values), accuracy);
+    EXPECT_LT(found->steps, steps) << accuracy;
+  }
+}
+
 TEST(LargestEigenvalues, ThatAreDoubleAreFoundTwice) {
   Eigen::VectorXcd values = spiral(90);
   values(1) = values(0);

@@ -223,6 +223,29 @@ TEST(Helix, ShallowCutsAreNoFurtherOffThanTheyClaim) {
   EXPECT_GE(found, 22);
 }
 
+TEST(Helix, TheFirstCrossingIsTheSameWhateverElseIsWantedAndExpected) {
+  std::mt19937_64 engine(2);
+  for (int i = 0; i < 8; ++i) {
+    const ShallowCut cut = shallow_cut(engine);
+    const RelativeStructure poles = relative_structure(testing::modal_model(cut.modes), "P");
+    const LobeRow all = limiting_depth(poles, cut.process, cut.rpm, StabilityOptions{});
+    if (all.at_limit || all.status != StabilityStatus::converged) continue;
+    for (const double follow : {1.0, 3.0}) {
+      for (const double expected : {0.3, 1.0, 4.0}) {
+        StabilityOptions options;
+        options.follow = follow;
+        options.expected_depth_m = expected * all.limiting_depth_m;
+        const LobeRow row = limiting_depth(poles, cut.process, cut.rpm, options);
+        EXPECT_EQ(row.status, StabilityStatus::converged) << i << ", " << follow << ", " << expected;
+        EXPECT_NEAR(row.limiting_depth_m / all.limiting_depth_m, 1.0, 1e-7 + all.error_estimate + row.error_estimate)
+            << i << ", " << follow << ", " << expected;
+        if (follow == 1.0)
+          EXPECT_LE(row.crossings.back().depth_m, 1.11 * row.limiting_depth_m) << i << ", " << expected;
+      }
+    }
+  }
+}
+
 TEST(Helix, SearchesUpToTheEndOfTheEdgesAndNotBeyond) {
   // At 7205.5 rpm a crossing lies at 10.01 mm, just beyond the edges.
   const RelativeStructure tool = relative_structure(testing::modal_model(benchmark_modes), "P");

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <iterator>
 #include <map>
+#include <mutex>
 #include <random>
 
 #include "core/error.hpp"
@@ -181,6 +182,25 @@ TEST(RefinedLine, SeesAFlipLobeThatLiesBetweenTwoSpeedsOnAHopfLobe) {
   EXPECT_TRUE(chart.line->met);
   EXPECT_TRUE(std::ranges::any_of(chart.rows, [](const LobeRow& row) { return row.kind == Bifurcation::flip; }));
   EXPECT_LT(std::ranges::max(distances(chart, row_at, options, spindle_speeds(5000.5, 5199.5, 200))), 0.03);
+}
+
+TEST(RefinedLine, AddedSpeedsFollowTheCrossingsBesideTheFirstAndAskedOnesAll) {
+  std::mutex writing;
+  std::map<double, double> followed;
+  const auto row_at = [&](double rpm, const StabilityOptions& with) {
+    const std::lock_guard lock(writing);
+    followed[rpm] = with.follow;
+    return row_in_closed_form(rpm, with);
+  };
+  const StabilityOptions options;
+  constexpr double asked_rpm = 9876.0;
+  const Lobes even = even_chart(3000.0, 18000.0, 40, row_in_closed_form, options);
+  const Lobes chart = refined(even, row_at, two_teeth(), options, {}, {asked_rpm});
+  ASSERT_GT(chart.line->speeds_added, 10);
+  for (const auto& [rpm, follow] : followed) {
+    if (rpm == asked_rpm) EXPECT_EQ(follow, options.follow);
+    else EXPECT_EQ(follow, 3.0) << rpm;
+  }
 }
 
 TEST(RefinedLine, SeesAFoldLobeThatLiesBetweenTwoSpeedsOnAHopfLobe) {
