@@ -9,10 +9,12 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <functional>
 #include <numbers>
 
 #include "bench/dense_semi_discretization.hpp"
 #include "milling/chart/lobe_field.hpp"
+#include "milling/chart/sampled_stability.hpp"
 #include "milling/chart/stability_map.hpp"
 
 namespace {
@@ -127,7 +129,18 @@ void path_along_plate() {
               time, weakest - field.minimum_depth_m.begin() + 1, field.rows_not_converged);
 }
 
-/// Four teeth with a helix of 30° on the plate at three places: the processor's time a row, whatever else it does.
+/// Two modes of a tool as lines 2 Hz apart up to 5998 Hz, tool axes.
+SampledReceptance tool_lines() {
+  RelativeStructure tool;
+  add_mode(tool, 1650.0, 0.02, 0.5, Eigen::Vector3d::UnitX());
+  add_mode(tool, 1710.0, 0.02, 0.5, Eigen::Vector3d::UnitY());
+  SampledReceptance lines{Eigen::VectorXd::LinSpaced(2990, 20.0, 5998.0), {}};
+  for (const double hz : lines.frequency_hz) lines.H.push_back(receptance(tool, 2.0 * std::numbers::pi * hz));
+  return lines;
+}
+
+/// Four teeth with a helix of 30° on the plate at three places, without and with a measured tool: the
+/// processor's time a row, whatever else it does.
 void helix_along_plate() {
   MillingProcess process;
   process.cutter = {4, 0.010};
@@ -139,11 +152,17 @@ void helix_along_plate() {
   options.depth_limit_m = 0.01;
   const std::vector<RelativeStructure> structures{plate_robot_tool(0.0), plate_robot_tool(0.5), plate_robot_tool(1.0)};
   const std::vector<double> rpm = spindle_speeds(6000.0, 16000.0, 40);
-  const std::clock_t start = std::clock();
-  const LobeField field = lobe_field(structures, process, rpm, options);
-  const double time = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  std::printf("four helical teeth, 20 modes, along a path         %8.1f ms of the processor a row, %d not converged\n",
-              1e3 * time / static_cast<double>(structures.size() * rpm.size()), field.rows_not_converged);
+  const auto timed = [&](const char* what, const std::function<LobeField()>& field_of) {
+    const std::clock_t start = std::clock();
+    const LobeField field = field_of();
+    const double time = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    std::printf("%-50s %8.1f ms of the processor a row, %d not converged\n", what,
+                1e3 * time / static_cast<double>(structures.size() * rpm.size()), field.rows_not_converged);
+  };
+  timed("four helical teeth, 20 modes, along a path", [&] { return lobe_field(structures, process, rpm, options); });
+  const FittedStructure tool = fitted_structure({tool_lines(), {}}, process.frame);
+  timed("the same and a measured tool, its fit not counted",
+        [&] { return lobe_field(tool, structures, process, rpm, options); });
 }
 
 void map_of_two_dof() {

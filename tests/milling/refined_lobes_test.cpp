@@ -165,6 +165,28 @@ TEST(RefinedLine, SeesTheCornerOfTwoLobesOfNearlyEqualFrequencies) {
   EXPECT_NEAR(gap.corner_rpm, 4000.0, 1.0);
 }
 
+/// Two lobes, even on their own sides of 10000 rpm, that fall in 1/w by four fifths up to the other side's row, which
+/// knows them as deeper crossings: what a lobe's own rows say of it is level with the chord.
+TEST(RefinedLine, LobesGoThroughTheirDeeperCrossingsOnTheOtherSideOfACorner) {
+  const auto row = [](double rpm, double side, bool knows_other) {
+    LobeRow result;
+    result.spindle_speed_rpm = rpm;
+    result.crossings = {{1e-3, 1660.0 + 5.0 * side, Bifurcation::hopf, 2, 1e-9}};
+    if (knows_other) result.crossings.push_back({5e-3, 1660.0 - 5.0 * side, Bifurcation::hopf, 2, 1e-9});
+    take_limit_from_crossings(result);
+    return result;
+  };
+  MillingProcess process = two_teeth();
+  process.cutter.teeth = 1;
+  const std::vector<LobeRow> rows{row(9850.0, -1.0, false), row(9950.0, -1.0, true), row(10050.0, 1.0, true),
+                                  row(10150.0, 1.0, false)};
+  // The parabola in 1/w through 1, 1 and 0.2 at equal steps, amid the last two of them: 0.7, where both lobes meet.
+  const LineGap gap = line_gaps(rows, process)[1];
+  EXPECT_TRUE(gap.corner);
+  EXPECT_GE(gap.error, 1.0 - 0.7);
+  EXPECT_NEAR(gap.corner_rpm, 10000.0, 1.0);
+}
+
 // Between 5050 and 5100 rpm the multipliers of the Hopf lobe pass -1, and a flip lobe of ten rpm lies there.
 TEST(RefinedLine, SeesAFlipLobeThatLiesBetweenTwoSpeedsOnAHopfLobe) {
   const MillingProcess process = testing::benchmark_process(0.5);
