@@ -98,6 +98,27 @@ expect_contains "a failed build says so" "the build failed" "$messages"
 launch doctor
 expect_contains "and is tried again" "cmake --build" "$called"
 
+# --- a case with a STEP file is offered its reader, once
+mkdir -p "$tree/bracket" "$tree/plain"
+printf '[part]\nfile = "bracket.STEP"  # in mm\n' >"$tree/bracket/case.toml"
+printf '[part]\nfile = "bracket.stl"  # was bracket.step\n' >"$tree/plain/case.toml"
+age_build
+reader=libocct-data-exchange-dev
+THINWALL_DRY_RUN=1 launch run "$tree/bracket"
+expect_contains "the plan has the reader" "install $reader" "$out"
+launch run "$tree/bracket"
+expect_equal "where nobody can be asked the program runs without it" "<run><$tree/bracket>" "$out"
+expect_equal "and nothing is called" "" "$called"
+THINWALL_YES=1 launch run "$tree/plain"
+expect_equal "another case is offered nothing" "" "$called"
+THINWALL_YES=1 launch run "$tree/bracket/case.toml"
+expect_contains "the reader is installed" "apt-get install -y --no-install-recommends $reader" "$called"
+expect_contains "the build is configured anew" "cmake --preset release" "$called"
+expect_contains "and built" "--target thinwall" "$called"
+age_build
+THINWALL_YES=1 launch run "$tree/bracket"
+expect_equal "once" "" "$called"
+
 # --- tests
 launch test -R Lobes
 expect_equal "ctest's exit code" 8 "$code"
