@@ -5,7 +5,6 @@
 
 #include <atomic>
 #include <cerrno>
-#include <fstream>
 #include <mutex>
 #include <random>
 #include <set>
@@ -56,6 +55,24 @@ void write_all(int descriptor, std::string_view content, const std::filesystem::
     if (written <= 0) fail_to_write(target, written < 0 ? errno : ENOSPC);
     content.remove_prefix(static_cast<std::size_t>(written));
   }
+}
+
+/// All bytes up to the end of the file. A read that fails is an error: a stream would take it for the end, and what was
+/// read so far for the whole.
+std::string read_all(int descriptor, const std::filesystem::path& path) {
+  constexpr std::size_t step = 1U << 20U;
+  std::string content;
+  std::size_t filled = 0;
+  for (;;) {
+    content.resize(filled + step);
+    const ssize_t count = ::read(descriptor, content.data() + filled, step);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail_to_read(path, errno);
+    filled += static_cast<std::size_t>(count);
+    if (count == 0) break;
+  }
+  content.resize(filled);
+  return content;
 }
 
 /// The names that partial_path() has given out, but for those of files that are no longer unfinished.
@@ -156,13 +173,9 @@ std::string read_file(const std::filesystem::path& path) {
     throw DataError("cannot read \"" + path.string() +
                     "\": it is a pipe or a device; write its content to a plain file");
   }
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) fail_to_read(path, errno);
-  std::ostringstream content;
-  content << file.rdbuf();
-  if (file.bad()) fail_to_read(path, EIO);
-  return std::move(content).str();
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.value < 0) fail_to_read(path, errno);
+  return read_all(file.value, path);
 }
 
 }  // namespace thinwall::core

@@ -108,6 +108,19 @@ TEST_F(AtomicFile, ReadingNamesThePathAndTheCause) {
   EXPECT_THROW((void)read_file(folder), DataError);
 }
 
+// The file is a plain one that opens, and no byte of it can be read.
+TEST_F(AtomicFile, AReadThatFailsIsNoEndOfTheFile) {
+  EXPECT_THROW((void)read_file("/proc/self/mem"), DataError);
+}
+
+TEST_F(AtomicFile, ReadingTakesFilesOfAnyLength) {
+  for (const std::size_t length : {0U, 1U, (1U << 20U) - 1U, 1U << 20U, (1U << 20U) + 1U, 5U << 20U}) {
+    const std::string content(length, 'x');
+    write_file_atomically(folder / "long", content);
+    EXPECT_EQ(read_file(folder / "long"), content) << length;
+  }
+}
+
 // Without a writer a pipe is waited for without end, and the device never ends.
 TEST_F(AtomicFile, ReadingRefusesPipesAndDevices) {
   const auto pipe = folder / "pipe";
