@@ -131,8 +131,15 @@ void ResultFolder::leave_nothing() noexcept {
 
 void remove_unfinished_files(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> unfinished;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+  const auto note = [&](const std::filesystem::directory_entry& entry) {
     if (core::is_partial_name(entry.path())) unfinished.push_back(entry.path());
+  };
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) note(entry);
+  std::vector<std::filesystem::path> own{folder / "cache"};
+  for (const char* name : result_subfolders) own.push_back(folder / name);
+  for (const auto& path : own) {
+    if (!std::filesystem::is_directory(path)) continue;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path)) note(entry);
   }
   for (const auto& path : unfinished) std::filesystem::remove_all(path);
 }

@@ -53,7 +53,8 @@ auto unless_refused(ResultFolder& folder, const Body& body) {
   }
 }
 
-/// Removes unfinished files (core::is_partial_name) anywhere below `folder`.
+/// Removes unfinished files (core::is_partial_name) in `folder`, in its cache and in the folders of its results. What
+/// lies in other folders is of others: a run there may be writing it.
 void remove_unfinished_files(const std::filesystem::path& folder);
 
 }  // namespace thinwall::report

@@ -103,6 +103,20 @@ TEST(ResultFolder, RemainsOfAKilledRunAreRemovedAndResultsKept) {
   EXPECT_TRUE(std::filesystem::exists(temporary.path / "summary.json"));
 }
 
+/// As with --out results, below which another run writes results/other just now.
+TEST(ResultFolder, WhatOtherRunsWriteBelowItIsLeftAlone) {
+  const TemporaryFolder temporary;
+  const ResultFolder other(temporary.path / "other");
+  const core::PartialFile theirs(temporary.path / "other" / "summary.json");
+  std::ofstream(theirs.partial()) << "half";
+  std::filesystem::create_directory(temporary.path / "cache");
+  const auto ours = core::partial_path(temporary.path / "cache" / "mesh.bin");
+  std::ofstream(ours) << "half";
+  { const ResultFolder held(temporary.path); }
+  EXPECT_TRUE(std::filesystem::exists(theirs.partial()));
+  EXPECT_FALSE(std::filesystem::exists(ours)) << "left by a killed run of this folder";
+}
+
 /// A folder with results of an earlier run and what a user put there, and a finished result within it.
 struct Earlier {
   Earlier() {
