@@ -73,11 +73,12 @@ study::PostureQuestions posture_questions(const PosturesRequest& request, const 
 std::string study_postures(const cases::Case& source, const PosturesRequest& request, const std::filesystem::path& out,
                            ProgressDisplay display) {
   const study::PostureQuestions questions = posture_questions(request, columns_of(source));
-  const report::ResultFolder folder(out.empty() ? report::default_result_folder(source.name) : out);
+  report::ResultFolder folder(out.empty() ? report::default_result_folder(source.name) : out);
   log_to_file(folder.path() / "run.log");  // marks the folder as ours
   messages_to_log();
   StageDisplay stages(display);
-  const study::PostureStudy found = study::study_postures(source, questions, stages.listener());
+  const study::PostureStudy found =
+      report::unless_refused(folder, [&] { return study::study_postures(source, questions, stages.listener()); });
   const auto staging = core::partial_path(folder.path() / "postures");
   report::write_posture_study(staging, found, source.title, program_name());
   report::publish_folder(staging, folder.path() / "postures");

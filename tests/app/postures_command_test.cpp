@@ -224,6 +224,7 @@ TEST_F(Postures, RefuseWhatCannotBeAsked) {
   const Outcome without = command({});
   EXPECT_EQ(without.code, 3);
   EXPECT_NE(without.err.find("give robot.postures"), std::string::npos) << without.err;
+  EXPECT_FALSE(std::filesystem::exists(temporary.path / "out")) << "nothing was computed";
 }
 
 }  // namespace
