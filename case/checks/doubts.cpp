@@ -91,6 +91,13 @@ void ask_about_materials(const Case& source, std::vector<std::string>& doubts) {
                    "and their digits fewer");
 }
 
+/// A robot that nothing joins to the part: it changes nothing.
+void ask_about_loose_robot(const Case& source, std::vector<std::string>& doubts) {
+  const bool part = source.part || !source.measured_part.empty();
+  if (!part || !source.robot || setup::carries_tool(source.robot) || !source.contacts.empty()) return;
+  doubts.push_back("no [[contacts]] join the robot to the part, which is computed alone; add one, or remove [robot]");
+}
+
 /// A robot whose coefficient of damping is next to none, as where a ratio was meant. One without damping may say so.
 void ask_about_robot_damping(const Case& source, std::vector<std::string>& doubts) {
   const auto* robot = source.robot ? std::get_if<setup::OneModeRobot>(&source.robot->model) : nullptr;
@@ -178,6 +185,7 @@ std::vector<std::string> doubts_about(const Case& source) {
   ask_about_patches(source, doubts);
   ask_about_materials(source, doubts);
   ask_about_robot_damping(source, doubts);
+  ask_about_loose_robot(source, doubts);
   ask_about_turns(source, doubts);
   ask_about_trace(source, doubts);
   ask_about_cut_material(source, doubts);

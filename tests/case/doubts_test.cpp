@@ -72,6 +72,14 @@ TEST(Doubts, ARobotsCoefficientOfDampingThatIsAsSmallAsARatioIsAskedAbout) {
   EXPECT_TRUE(with_robot("damping_ratio = 0.02").empty());
 }
 
+TEST(Doubts, ARobotThatNothingJoinsToThePartIsAskedAbout) {
+  const std::string robot = in_mm + "\n[robot]\nfrequency = \"25 Hz\"\nstiffness = \"2e6 N/m\"\ndamping_ratio = 0.02\n";
+  ASSERT_EQ(doubts(robot).size(), 1U);
+  EXPECT_TRUE(doubts(robot)[0].starts_with("no [[contacts]] join the robot to the part")) << doubts(robot)[0];
+  EXPECT_TRUE(doubts(robot + "[points.P]\nat = [1, 0.5, 0.5]\n[[contacts]]\npart = \"P\"").empty());
+  EXPECT_TRUE(doubts(robot + "carries = \"tool\"").empty()) << "it has no contacts";
+}
+
 TEST(Doubts, MaterialsOfWhichOneIsAMillionTimesSofterAreAskedAbout) {
   const auto beside = [](const std::string& modulus) {
     return doubts(in_mm + "\n[[part.materials]]\non = \"half\"\nyoungs_modulus = \"" + modulus +
