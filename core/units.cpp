@@ -129,11 +129,14 @@ std::size_t separator_length(std::string_view text) {
   return !text.empty() && (text.front() == ' ' || text.front() == '*' || text.front() == '/') ? 1 : 0;
 }
 
-/// The number at the start of `text`, which is shortened by it; empty if `text` does not start with a number.
+/// The number at the start of `text`, which is shortened by it; empty if `text` does not start with a number. Throws
+/// InputError for one that is too large or too small for a double.
 std::optional<double> take_number(std::string_view& text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc::result_out_of_range)
+    throw InputError("\"" + std::string(text) + "\" is a number beyond the range of a double, 1e-308 to 1e308");
   if (error != std::errc()) return std::nullopt;
   text.remove_prefix(static_cast<std::size_t>(end - text.data()));
   return value;

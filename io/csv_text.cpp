@@ -90,6 +90,9 @@ CsvText read_csv_table_text(const std::filesystem::path& path) {
   CsvText text;
   text.path = path;
   const std::string content = core::read_file(path);
+  if (const auto zero = content.find('\0'); zero != std::string::npos)
+    throw core::DataError(path.string() + ": byte " + std::to_string(zero) +
+                          " is 0, which no text has; save the file as CSV in UTF-8");
   std::string_view rest = content;
   if (rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());
   bool first = true;

@@ -26,8 +26,8 @@ struct CsvText {
 
 /// The lines of a file. The first line that is no comment determines the separator: ';' if the line contains one,
 /// otherwise tab, otherwise comma. Fields are trimmed and may be quoted (RFC 4180, without line breaks inside); a
-/// byte-order mark and CR are ignored. Throws DataError if the file is unreadable, a quote is not closed or there is no
-/// line of data. Cost O(bytes).
+/// byte-order mark and CR are ignored. Throws DataError if the file is unreadable or no text (one in UTF-16 has bytes
+/// of value 0), a quote is not closed or there is no line of data. Cost O(bytes).
 [[nodiscard]] CsvText read_csv_text(const std::filesystem::path& path);
 
 /// read_csv_text() of a table that may have no line below its header.

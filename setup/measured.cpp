@@ -62,7 +62,11 @@ void turn_to_named_axes(const io::MeasuredEntry& entry, const MeasuredFrf& measu
 
 /// The FRF of a file that the case names.
 const io::MeasuredEntry& record_of(const io::MeasuredEntries& file, const MeasuredFrf& measured) {
-  if (holds_one_frf(frf_file_kind(measured.file)) || !measured.variable.empty()) return file.entries.front();
+  const bool only_one = holds_one_frf(frf_file_kind(measured.file));
+  if (only_one && measured.record.value_or(1) != 1)
+    throw core::InputError("\"" + measured.file.string() + "\" holds one FRF, and record asks for number " +
+                           std::to_string(*measured.record) + ": remove record, or name another file");
+  if (only_one || !measured.variable.empty()) return file.entries.front();
   const std::size_t count = file.entries.size();
   const auto wanted = static_cast<std::size_t>(measured.record.value_or(1));
   if (wanted <= count && (measured.record || count == 1)) return file.entries[wanted - 1];
@@ -91,8 +95,22 @@ io::MeasuredEntries entry_of_variable(const MeasuredFrf& measured, const std::op
   return io::read_mat_entry(measured.file, {measured.frequency_variable, measured.variable}, *stated);
 }
 
-/// All FRFs of the file; of a file that tells no DOFs, one without directions.
-io::MeasuredEntries read_file(const MeasuredFrf& measured) {
+/// Throws DataError for a line that no structure has: a slip of the pen or of a unit, by which fits fail or squares
+/// become infinite.
+void require_possible(const io::MeasuredEntries& file, const std::filesystem::path& path) {
+  constexpr double largest_m_per_n = 1e6;  // far above the resonance of a spring of 1 N/m
+  for (const io::MeasuredEntry& entry : file.entries) {
+    Eigen::Index line = 0;
+    if (entry.frf.H.size() == 0 || entry.frf.H.cwiseAbs().maxCoeff(&line) <= largest_m_per_n) continue;
+    throw core::DataError(
+        fmt::format("{}: at {:g} Hz a force of 1 N moves it by {:g} m, as no structure does: look at "
+                    "this line, at quantity and unit",
+                    path.string(), entry.frf.axis.hz(line), std::abs(entry.frf.H(line))));
+  }
+}
+
+/// All FRFs that the file holds; of a file that tells no DOFs, one without directions.
+io::MeasuredEntries entries_of_file(const MeasuredFrf& measured) {
   const std::optional<io::FrfFormat> stated = stated_format(measured);
   if (!measured.variable.empty() || !measured.frequency_variable.empty()) return entry_of_variable(measured, stated);
   const FrfFileKind kind = frf_file_kind(measured.file);
@@ -107,6 +125,13 @@ io::MeasuredEntries read_file(const MeasuredFrf& measured) {
     throw core::InputError("\"" + measured.file.string() + "\" does not say what it holds: give quantity and unit");
   if (kind == FrfFileKind::lvm) return {{{untold, untold, io::read_lvm_frf(measured.file, *stated)}}, {}};
   return {{{untold, untold, io::read_frf(measured.file, *stated)}}, {}};
+}
+
+/// entries_of_file(), each of which a structure can have.
+io::MeasuredEntries read_file(const MeasuredFrf& measured) {
+  io::MeasuredEntries all = entries_of_file(measured);
+  require_possible(all, measured.file);
+  return all;
 }
 
 /// True of a CSV that io::write_response() wrote: its header names entries.

@@ -73,6 +73,12 @@ TEST(DataFiles, AFaultIsToldWhenTheCaseIsLoadedWithItsFileAndLine) {
   core::write_file_atomically(folder.path / "part.csv", "10,1e-6,0\n20,2e-6,0\n15,1e-6,0\n");
   const std::string part = frf("part", "P.x", "P.x", "part.csv", receptance);
   EXPECT_NE(fault(part).find("part.csv:3"), std::string::npos) << fault(part);
+  core::write_file_atomically(folder.path / "one.csv", "10,1e-6,0\n20,2e-6,0\n");
+  const std::string second = frf("part", "P.x", "P.x", "one.csv", std::string(receptance) + "record = 2\n");
+  EXPECT_NE(fault(second).find("holds one FRF, and record asks for number 2"), std::string::npos) << fault(second);
+  core::write_file_atomically(folder.path / "slip.csv", "10,1e-6,0\n20,1e308,1e308\n30,1e-6,0\n");
+  const std::string slip = frf("part", "P.x", "P.x", "slip.csv", receptance);
+  EXPECT_NE(fault(slip).find("slip.csv: at 20 Hz a force of 1 N moves it by"), std::string::npos) << fault(slip);
   const std::string nine = robot_of_nine_records(folder.path);
   const std::string unsaid = "[robot]\nmodel = \"measured\"\n" + frf("robot", "R.x", "R.x", "tip.uff", "");
   EXPECT_NE(fault(unsaid).find("holds 9 FRFs"), std::string::npos) << fault(unsaid);

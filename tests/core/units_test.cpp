@@ -94,6 +94,8 @@ TEST(Units, ABareSpindleSpeedIsRefusedWithTheRemedy) {
 TEST(Units, BadTextIsRefusedWithItsCause) {
   EXPECT_NE(message_of("6 mmm", kind::length).find("did you mean \"mm\"?"), std::string::npos);
   EXPECT_NE(message_of("six mm", kind::length).find("does not start with a number"), std::string::npos);
+  EXPECT_NE(message_of("1e400 mm", kind::length).find("beyond the range of a double"), std::string::npos);
+  EXPECT_NE(message_of("1e-400 mm", kind::length).find("beyond the range of a double"), std::string::npos);
   EXPECT_NE(message_of("6,5 mm", kind::length).find("decimal comma"), std::string::npos);
   EXPECT_NE(message_of("inf m", kind::length).find("not a finite number"), std::string::npos);
   EXPECT_NE(message_of("nan", kind::length).find("not a finite number"), std::string::npos);

@@ -104,6 +104,7 @@ TEST_F(MeasuredFrfFile, IsRefusedWithFileLineAndCause) {
       {"-1,2,3\n2,1,0\n", ":1:", "is negative"},
       {"1,2,3\n2,\"1,0\n", ":2:", "not closed"},
       {"f,re,im\n1,2,3\n", "", "two at least"},
+      {std::string("1,2,3\n2,1\0,0\n", 13), ": byte 9", "is 0, which no text has"},
       {"# nothing\nf,re,im\n", "", "no line of data"},
       {"", "", "no line of data"},
   };
