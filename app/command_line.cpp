@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <new>
-#include <sstream>
 
 #include "app/command_description.hpp"
 #include "app/command_options.hpp"
@@ -26,6 +25,7 @@
 #include "case/schema/json_schema.hpp"
 #include "case/templates.hpp"
 #include "core/atomic_file.hpp"
+#include "core/message_line.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "report/compare.hpp"
@@ -331,11 +331,9 @@ ExitCode execute(const CLI::App& app, const Arguments& arguments, const RunCase&
   return found.works ? ExitCode::done : ExitCode::numerical;
 }
 
-/// Every line of the message behind "thinwall: ".
+/// The message in one line behind "thinwall: ".
 void report(std::ostream& err, const std::string& message) {
-  const Style style = style_for(err);
-  std::istringstream lines(message);
-  for (std::string line; std::getline(lines, line);) err << style.bad("thinwall:") << " " << line << '\n';
+  err << style_for(err).bad("thinwall:") << " " << core::message_line(message) << '\n';
 }
 
 /// The answer to the program's name alone.
@@ -394,7 +392,8 @@ int guarded(const std::function<ExitCode()>& command, std::ostream& err) {
     report(err, "out of memory; take larger elements or fewer modes");
     return static_cast<int>(ExitCode::numerical);
   } catch (const std::filesystem::filesystem_error& error) {
-    report(err, std::string(error.what()) + "; check that the folder is there and may be read and written");
+    report(err, "cannot use \"" + error.path1().string() + "\": " + error.code().message() +
+                    "; check that it is there and may be read and written");
     return static_cast<int>(ExitCode::unreadable_data);
   } catch (const std::exception& error) {
     report(err, std::string("internal error: ") + error.what());

@@ -141,6 +141,27 @@ TEST_F(CommandLine, AnEmptyNameOfAnOutputIsWrongUse) {
   }
 }
 
+TEST_F(CommandLine, AnErrorIsOneLineWhateverItCites) {
+  for (const std::string& name : {std::string(50000, 'a'), std::string("a\nb\x1b[2J")}) {
+    const Outcome outcome = call({"check", name});
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_LT(outcome.err.size(), 700U);
+    EXPECT_EQ(outcome.err.find('\x1b'), std::string::npos);
+    EXPECT_NE(outcome.err.find("\"thinwall init\" makes one"), std::string::npos) << "the remedy stays";
+  }
+  const Outcome option = call({"check", plate(), "--set", std::string(50000, 'a') + "=1"});
+  EXPECT_LT(option.err.size(), 1200U) << "with the line of what was given";
+}
+
+TEST_F(CommandLine, APathThatCannotBeFollowedIsToldByItsName) {
+  const auto loop = temporary.path / "plate" / "expected.toml";
+  std::filesystem::create_symlink("expected.toml", loop);
+  const Outcome outcome = call({"check", plate()});
+  EXPECT_EQ(outcome.code, 4);
+  EXPECT_TRUE(outcome.err.starts_with("thinwall: cannot use \"" + loop.string() + "\": ")) << outcome.err;
+}
+
 // Every command that is shown is one: what stands behind "thinwall" in each line is tried with --help.
 TEST_F(CommandLine, TheNameAloneShowsHowToBegin) {
   const Outcome outcome = call({});
