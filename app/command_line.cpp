@@ -43,6 +43,7 @@
 #include "setup/identified/identify.hpp"
 #include "setup/imported_part.hpp"
 #include "setup/part_geometry.hpp"
+#include "study/lobes/lobes_stage.hpp"
 #include "study/support/robot_survey.hpp"
 
 namespace thinwall::app {
@@ -51,9 +52,15 @@ namespace {
 
 using core::ExitCode;
 
-std::vector<milling::OperatingPoint> operating_points(const Arguments& arguments) {
+/// The points of --at, which the charts of the case reach.
+std::vector<milling::OperatingPoint> operating_points(const Arguments& arguments, const cases::Case& source) {
   std::vector<milling::OperatingPoint> points;
   for (const auto& text : arguments.points) points.push_back(operating_point(text));
+  try {
+    study::require_chart_of(source, points);
+  } catch (const core::InputError& error) {
+    throw core::InputError(std::string("--at: ") + error.what());
+  }
   return points;
 }
 
@@ -75,7 +82,7 @@ ExitCode compute(const Arguments& arguments, const cases::Case& source, const Ru
   const int verbosity = arguments.quiet ? -1 : arguments.verbose ? 1 : 0;
   const ProgressDisplay display = start_log(arguments);
   if (arguments.threads > 0) core::set_thread_count(arguments.threads);
-  const std::vector<milling::OperatingPoint> points = operating_points(arguments);
+  const std::vector<milling::OperatingPoint> points = operating_points(arguments, source);
   report::ResultFolder folder(arguments.out.empty() ? report::default_result_folder(source.name)
                                                     : std::filesystem::path(arguments.out));
   log_to_file(folder.path() / "run.log");

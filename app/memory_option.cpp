@@ -15,7 +15,7 @@ namespace thinwall::app {
 
 namespace {
 
-constexpr double least_bytes = 1e8;
+constexpr double least_bytes = 1e8, most_bytes = 1e15;  // the latter is the bound of part.mesh.memory_limit, too
 
 /// Ends the process as soon as it holds more than the limit; memory that the estimates of the stages do not foresee.
 /// The process looks at itself a hundred times a second, in which it can take some 20 MB: so much is kept away from the
@@ -42,6 +42,9 @@ void limit_memory(const std::string& text) {
   if (bytes < least_bytes)
     throw core::UsageError("--memory: " + text + " is less than the program itself takes; give at least " +
                            core::readable_text(least_bytes, core::kind::memory));
+  if (!(bytes <= most_bytes))
+    throw core::UsageError("--memory: " + text + " is more than a machine has; give at most " +
+                           core::readable_text(most_bytes, core::kind::memory));
   core::set_memory_limit(bytes);
   std::thread(watch, bytes).detach();
 }

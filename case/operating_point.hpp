@@ -8,7 +8,7 @@
 namespace thinwall::cases {
 
 /// The operating point of a text, "5000 rpm, 0.5 mm". Throws InputError that says what is wrong with it, for texts
-/// without one comma, other quantities, and a speed or depth that is not above 0.
+/// without one comma, other quantities, and a speed or depth that no machine has.
 [[nodiscard]] milling::OperatingPoint operating_point(const std::string& text);
 
 }  // namespace thinwall::cases

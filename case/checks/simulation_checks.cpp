@@ -29,12 +29,6 @@ void check_points(const Case& source, Findings& findings) {
   for (const std::string& text : *texts) {
     try {
       const milling::OperatingPoint point = operating_point(text);
-      constexpr double slowest_rpm = 1.0, fastest_rpm = 1e6;
-      if (!(point.spindle_speed_rpm >= slowest_rpm && point.spindle_speed_rpm <= fastest_rpm))
-        findings.report("simulation.at", "\"" + text + "\" is no spindle speed in machining: these lie between " +
-                                             core::readable_text(slowest_rpm, core::kind::spindle_speed) + " and " +
-                                             core::readable_text(fastest_rpm, core::kind::spindle_speed) +
-                                             "; check number and unit");
       for (const double height : source.simulation->wall_heights_m) {
         if (height > point.depth_m)
           findings.report("simulation.wall_heights", length(height) + " is above the depth of \"" + text +

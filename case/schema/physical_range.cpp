@@ -35,15 +35,18 @@ std::span<const PhysicalRange> physical_ranges() {
 }
 
 void require_physical(const Key& key, double value) {
-  const auto of_kind = [&](const PhysicalRange& range) { return range.kind.name == key.kind.name; };
+  require_physical(key.kind, value, !(key.bounds.lower == 0.0 && key.bounds.lower_open));
+}
+
+void require_physical(const core::QuantityKind& quantity, double value, bool takes_zero) {
+  const auto of_kind = [&](const PhysicalRange& range) { return range.kind.name == quantity.name; };
   const auto* range = std::ranges::find_if(ranges, of_kind);
   if (range == std::end(ranges) || !std::isfinite(value)) return;
-  const bool takes_zero = !(key.bounds.lower == 0.0 && key.bounds.lower_open);
   const bool large_enough = takes_zero || std::abs(value) >= range->smallest;
   if (large_enough && std::abs(value) <= range->largest) return;
-  const auto text = [&](double bound) { return core::readable_text(bound, key.kind); };
-  const std::string name(key.kind.name);
-  throw core::InputError(core::exact_text(value, key.kind) + " is no " + name + " in machining: these lie " +
+  const auto text = [&](double bound) { return core::readable_text(bound, quantity); };
+  const std::string name(quantity.name);
+  throw core::InputError(core::exact_text(value, quantity) + " is no " + name + " in machining: these lie " +
                          (takes_zero ? "below " : "between " + text(range->smallest) + " and ") + text(range->largest) +
                          "; check number and unit");
 }

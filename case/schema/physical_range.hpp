@@ -21,4 +21,7 @@ struct PhysicalRange {
 /// Throws InputError with the value and the range of the key's kind unless the number lies in it.
 void require_physical(const Key& key, double value);
 
+/// require_physical() of a quantity that has no key; `takes_zero`: there is no smallest magnitude.
+void require_physical(const core::QuantityKind& quantity, double value, bool takes_zero = false);
+
 }  // namespace thinwall::cases

@@ -117,7 +117,7 @@ TEST_F(CommandLine, AnOptionOfACommandThatStandsForAKeyIsCitedItself) {
 }
 
 TEST_F(CommandLine, AValueOfAnOptionThatIsNoneIsWrongUse) {
-  for (const std::string memory : {"lots", "-1 GB", "nan GB", "1 B"}) {
+  for (const std::string memory : {"lots", "-1 GB", "nan GB", "1 B", "1e300 GB"}) {
     const Outcome outcome = call({"run", plate(), "--memory", memory});
     EXPECT_EQ(outcome.code, 2) << memory;
     EXPECT_TRUE(outcome.err.starts_with("thinwall: --memory: ")) << outcome.err;
