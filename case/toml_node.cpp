@@ -203,6 +203,11 @@ std::string_view node_type(const toml::node& node) {
 }
 
 Value read_value(const toml::node& node, const Key& key) {
+  // Where there is a default, a list without an entry would leave out what nobody means to be without: directions that
+  // a support holds or a contact joins, stiffnesses.
+  if (const auto* list = node.as_array(); list != nullptr && list->empty() && !key.fallback.empty())
+    throw InputError("is a list without an entry; name what is meant, or leave the key out for its default, " +
+                     std::string(key.fallback));
   switch (key.type) {
     case Type::text:
     case Type::file:

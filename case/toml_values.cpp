@@ -310,7 +310,10 @@ toml::table& descend(toml::table& table, std::string_view name, const std::strin
     auto* array = table[name.substr(0, bracket)].as_array();
     if (auto* inner = array == nullptr ? nullptr : (*array)[list_place(name, array, path)].as_table()) return *inner;
   }
-  throw InputError("--set " + path + ": the case has no " + std::string(name));
+  const auto* list = bracket == std::string_view::npos ? table.get(name)->as_array() : nullptr;
+  if (list == nullptr) throw InputError("--set " + path + ": the case has no " + std::string(name));
+  throw InputError("--set " + path + ": " + std::string(name) + " is a list of " + std::to_string(list->size()) +
+                   "; name the entry, as in " + std::string(name) + "[0]");
 }
 
 /// The value of an override: TOML if it is TOML, else a text, so that the quotes of "8 mm" may be left to the shell.

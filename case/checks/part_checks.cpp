@@ -216,6 +216,12 @@ void check_point(const Case& source, const setup::Point& point, Findings& findin
   if (source.part && geometry_known(*source.part)) {
     const std::string outside = outside_part(*source.part, setup::position(*source.part, point), point.patch_radius);
     if (!outside.empty()) findings.report(point.at ? key + ".at" : key + ".position", outside);
+    const double least = 1e-6 * setup::bounds(*source.part).diagonal().norm();
+    if (point.patch_radius > 0.0 && point.patch_radius < least)
+      findings.report(key + ".patch_radius", core::readable_text(point.patch_radius, core::kind::length) +
+                                                 " is less than a millionth of the part, " +
+                                                 core::readable_text(least, core::kind::length) +
+                                                 "; give the radius of the contact, or 0 for a single node");
   }
   check_face(source, point, findings);
   if (!independent(point.directions)) {
@@ -228,6 +234,37 @@ bool misses_part(const setup::Part& part, const setup::Selection& selection) {
   const Eigen::AlignedBox3d block = setup::bounds(part);
   if (selection.sphere) return block.exteriorDistance(selection.sphere->centre) >= selection.sphere->radius;
   return selection.box && !(block.intersection({selection.box->min, selection.box->max}).sizes().minCoeff() > 0.0);
+}
+
+/// True if a selection lies off the block around the part, so that it holds no face.
+bool lies_off_part(const setup::Part& part, const setup::Selection& selection) {
+  const Eigen::AlignedBox3d block = setup::bounds(part);
+  const double slack = setup::from_file(part) ? setup::off_surface(part) : tolerance(part);
+  if (selection.sphere) return block.exteriorDistance(selection.sphere->centre) > selection.sphere->radius + slack;
+  if (selection.box) {
+    const Eigen::AlignedBox3d other(selection.box->min, selection.box->max);
+    return !other.isEmpty() && block.exteriorDistance(other) > slack;
+  }
+  if (!selection.plane) return false;
+  const Eigen::Vector3d n = selection.plane->normal.normalized();
+  const double middle = n.dot(block.center() - selection.plane->point), reach = n.cwiseAbs().dot(block.sizes()) / 2.0;
+  return std::abs(middle) > reach + slack;
+}
+
+/// Checks that selections which hold the part meet it.
+void check_held_places(const Case& source, Findings& findings) {
+  if (setup::kind(*source.part) == setup::ShapeKind::matrices) return;
+  const auto check = [&](const std::string& key, const std::string& on) {
+    const auto selection = std::ranges::find(source.selections, on, &setup::Selection::name);
+    if (selection == source.selections.end() || !lies_off_part(*source.part, *selection)) return;
+    findings.report(key, "the selection \"" + on + "\" holds no face of the part, which reaches from " +
+                             text(setup::bounds(*source.part).min()) + " to " +
+                             text(setup::bounds(*source.part).max()) + "; move it");
+  };
+  for (std::size_t i = 0; i < source.part->supports.size(); ++i)
+    check(indexed("part.supports", i) + ".on", source.part->supports[i].on);
+  for (std::size_t i = 0; i < source.part->clamps.size(); ++i)
+    check(indexed("part.clamps", i) + ".on", source.part->clamps[i].on);
 }
 
 void check_material_places(const Case& source, Findings& findings) {
@@ -304,7 +341,10 @@ void check_part(const Case& source, Findings& findings) {
     check_mode_counts(source, findings);
     check_substructures(source, findings);
     check_bend(*source.part, findings);
-    if (geometry_known(*source.part)) check_material_places(source, findings);
+    if (geometry_known(*source.part)) {
+      check_material_places(source, findings);
+      check_held_places(source, findings);
+    }
     if (geometry_known(*source.part) && setup::kind(*source.part) != setup::ShapeKind::matrices &&
         setup::kind(*source.part) != setup::ShapeKind::mesh)
       check_mesh_size(source, findings);

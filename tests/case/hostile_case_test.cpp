@@ -93,6 +93,39 @@ TEST(HostileCase, NumbersOfListsInOptionsAreThoseOfTheCase) {
   EXPECT_EQ(refusal(plate_case(), {"part.supports[1].on=z_min", "damping.ratios[0]=0.02"}), "");
 }
 
+TEST(HostileCase, AListOfTheCaseIsNoTableOfIt) {
+  expect_refused(plate_case(), "--set part.supports.on: supports is a list of 2; name the entry, as in supports[0]",
+                 {"part.supports.on=z_min"});
+  expect_refused(plate_case(), "--set robot.modes[0].frequency: the case has no modes[0]",
+                 {"robot.modes[0].frequency=3 Hz"});
+}
+
+TEST(HostileCase, AListThatHasADefaultIsNotEmpty) {
+  expect_replaced_refused(
+      "fixed = [\"x\", \"y\", \"z\"]", "fixed = []",
+      "part.supports[1].fixed: is a list without an entry; name what is meant, or leave the key out");
+  expect_replaced_refused("[[contacts]]", "[[contacts]]\ndirections = []",
+                          "contacts[0].directions: is a list without an entry");
+  expect_replaced_refused("[[contacts]]", "[[contacts]]\nstiffness = []",
+                          "contacts[0].stiffness: is a list without an entry");
+  EXPECT_EQ(refusal(with(plate_case(), "[lobes]", "[lobes]\ncompare = []")), "") << "no chart beside";
+}
+
+TEST(HostileCase, ASelectionOffThePartHoldsNothing) {
+  const auto held_on = [](const std::string& selection) {
+    return with(plate_case(), "on = \"y_min\"", "on = \"S\"") + "[selections.S." + selection;
+  };
+  const std::string part =
+      "part.supports[0].on: the selection \"S\" holds no face of the part, which reaches from (0 m, 0 m, 0 m) to "
+      "(6 mm, 392 mm, 100 mm)";
+  expect_refused(held_on("sphere]\ncentre = [9, 9, 9]\nradius = \"1 mm\"\n"), part);
+  expect_refused(held_on("box]\nmin = [0, \"-2 mm\", 0]\nmax = [\"6 mm\", \"-1 mm\", \"100 mm\"]\n"), part);
+  expect_refused(held_on("plane]\npoint = [0, \"393 mm\", 0]\nnormal = [0, 2, 0]\n"), part);
+  EXPECT_EQ(refusal(held_on("box]\nmin = [0, \"-2 mm\", 0]\nmax = [\"6 mm\", 0, \"100 mm\"]\n")), "") << "a face";
+  EXPECT_EQ(refusal(held_on("plane]\npoint = [0, \"392 mm\", 0]\nnormal = [0, 2, 0]\n")), "");
+  EXPECT_EQ(refusal(held_on("sphere]\ncentre = [0, 0, 0]\nradius = \"9 mm\"\n")), "");
+}
+
 TEST(HostileCase, AQuantityIsOneOfMachining) {
   const auto lobes = [](const std::string& from, const std::string& to, const std::string& part) {
     expect_refused(
@@ -118,6 +151,8 @@ TEST(HostileCase, AQuantityIsOneOfMachining) {
   expect_replaced_refused("frequency = \"29 Hz\"", "mass = \"1e-9 kg\"",
                           "robot.mass: beside robot.stiffness it cannot be: 656");
   EXPECT_EQ(refusal(with(plate_case(), "offset = [\"0 mm\"", "offset = [\"6e-17 m\"")), "") << "round-off is zero";
+  expect_replaced_refused("[points.P2]", "patch_radius = \"1e-300 m\"\n[points.P2]",
+                          "points.P.patch_radius: 1e-294 µm is less than a millionth of the part, 0.4046 µm");
 }
 
 // The page lists the ranges that hold.
