@@ -19,6 +19,7 @@
 #include "io/frf/mat_response.hpp"
 #include "io/results/csv_table.hpp"
 #include "tests/case/case_text.hpp"
+#include "tests/processor_time.hpp"
 
 namespace thinwall::tests::lobes_command_test {
 
@@ -64,6 +65,30 @@ TEST_F(LobesCommand, LinesOfAnIntegratorsNoiseAreLeftOutAndTold) {
   EXPECT_NEAR(whole["minimum_depth_m"].get<double>() / band["minimum_depth_m"].get<double>(), 1.0, 2e-3);
   EXPECT_LT(whole["error_estimate_relative"].get<double>(), 0.02);
   EXPECT_FALSE(whole.contains("below_first_resonance"));
+}
+
+/// The lines are fitted once; a row follows from the fit and from sums over what the lines leave of it.
+TEST_F(LobesCommand, ASpeedOfAFileOfThousandsOfLinesTakesHundredthsOfASecond) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> noise(0.0, 0.005);
+  std::ostringstream text;
+  for (int hz = 100; hz <= 5000; ++hz) {
+    const double r = hz / 850.0, q = hz / 1650.0;
+    const double real = noise(random), imaginary = noise(random);
+    const std::complex<double> H = (1.0 / (2e7 * std::complex<double>(1.0 - r * r, 0.06 * r)) +
+                                    1.0 / (4e7 * std::complex<double>(1.0 - q * q, 0.05 * q))) *
+                                   std::complex<double>(1.0 + real, imaginary);
+    text << hz << ',' << H.real() << ',' << H.imag() << '\n';
+  }
+  write("long.csv", text.str());
+  const auto seconds = [&](const std::string& count) {
+    const double before = processor_seconds();
+    EXPECT_EQ(frf(path("long.csv"), {"--fresh", "--set", "lobes.count=" + count, "--set", "lobes.most_added=0"}).code,
+              0);
+    return processor_seconds() - before;
+  };
+  const double few = seconds("4");
+  EXPECT_LT((seconds("24") - few) / 20.0, 0.05);
 }
 
 TEST_F(LobesCommand, TheBandOfAMeasuredFrfIsBoundedByItsKeys) {
@@ -194,13 +219,14 @@ TEST_F(LobesCommand, FromSamplesTheMultiplierIsNullAndTheRestAgrees) {
 }
 
 TEST_F(LobesCommand, AnOperatingPointThatIsNoneIsWrongUse) {
-  for (const auto* text : {"5000 rpm", "5000 rpm 0.5 mm", "5000 rpm, 0.5 mm, 3", "5000, 0.5 mm", "5000 rpm, 0.5 Hz",
-                           "0.5 mm, 5000 rpm", "0 rpm, 0.5 mm", "-5000 rpm, 0.5 mm", "5000 rpm, 0 mm",
-                           "5000 rpm, -1 mm", ", ", "5000 rpm, nan mm", "fast, deep"}) {
+  for (const auto* text :
+       {"5000 rpm", "5000 rpm 0.5 mm", "5000 rpm, 0.5 mm, 3", "5000, 0.5 mm", "5000 rpm, 0.5 Hz", "0.5 mm, 5000 rpm",
+        "0 rpm, 0.5 mm", "-5000 rpm, 0.5 mm", "5000 rpm, 0 mm", "5000 rpm, -1 mm", ", ", "5000 rpm, nan mm",
+        "fast, deep", "1e300 rpm, 0.5 mm", "0.5 rpm, 0.5 mm", "5000 rpm, 1e-300 m"}) {
     expect_refused(lobes({path("modes.csv"), "--tool", path("tool.toml"), std::string("--at=") + text}), 2, "--at");
   }
   expect_refused(lobes({path("modes.csv"), "--tool", path("tool.toml"), "--at", "9000 rpm, 11 mm"}), 3,
-                 "deeper than the chart goes");
+                 "--at: operating point at 11 mm: deeper than the chart goes");
 }
 
 TEST_F(LobesCommand, WordsThatDoNotGoTogetherAreWrongUse) {

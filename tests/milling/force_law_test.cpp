@@ -102,6 +102,19 @@ TEST(ChipLoad, PitchesAndRunoutMoveChipsFromToothToTooth) {
   EXPECT_NEAR(loads[1].mean_thickness_m, 1.2e-4 * mean_sine - 5e-6, 1e-10);
 }
 
+/// The j-th pitch leads to tooth j − 1, whose surface the tooth cuts: of three teeth the other neighbour is another
+/// one.
+TEST(ChipLoad, ThePitchOfAToothLeadsToTheOneBeforeIt) {
+  const std::vector<double> pitches{0.5 * pi, 0.6 * pi, 0.9 * pi}, runout{4e-6, 0.0, 1e-6};
+  const Cutter cutter{3, 0.01, pitches, {}, {}, runout};
+  const auto loads = chip_loads(cutter, {{0.25 * pi, 0.75 * pi}}, 1e-4);
+  const double mean_sine = std::sqrt(2.0) / (0.5 * pi);
+  for (std::size_t j = 0; j < 3; ++j) {
+    const double fed = 3.0 * 1e-4 * pitches[j] / (2.0 * pi);
+    EXPECT_NEAR(loads[j].mean_thickness_m, fed * mean_sine + runout[j] - runout[(j + 2) % 3], 1e-10) << "tooth " << j;
+  }
+}
+
 TEST(ChipLoad, ToothBehindTheOthersLeavesItsChipToTheNext) {
   // Two teeth, one so short that it never cuts: the other takes both feeds.
   const Cutter cutter{2, 0.01, {}, {}, {}, {0.0, -5e-4}};
