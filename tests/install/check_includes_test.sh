@@ -8,7 +8,7 @@ python=${1:-python3}
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
 
-mkdir -p "$tree"/{core,dynamics,mesh,io,tests/io}
+mkdir -p "$tree"/{core,dynamics,mesh,io/results,tests/io}
 touch "$tree"/core/error.hpp "$tree"/mesh/tet_mesh.hpp "$tree"/tests/io/scratch.hpp
 
 verdict() { "$python" "$here/../../cmake/check_includes.py" "$tree" 2>&1 || true; }
