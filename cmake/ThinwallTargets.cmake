@@ -69,8 +69,8 @@ thinwall_precompiled(thinwall_text_headers ${THINWALL_COMMON_HEADERS} <nlohmann/
 # Puts the sources of a target into batches of about THINWALL_BATCH_SIZE, each compiled at once (THINWALL_BATCHES): what
 # its sources have in common, headers and instances of templates, is compiled once for all of them. The batches of a
 # target are of nearly equal size, so that two cores finish together. Sources that include one of the large libraries are
-# put into separate batches, so that its headers are parsed once or twice only and its names cannot collide with those of
-# many other files.
+# put into separate batches, so that its headers are parsed once only and its names cannot collide with those of many
+# other files.
 function(thinwall_batches target)
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
@@ -84,13 +84,9 @@ function(thinwall_batches target)
   endforeach()
   list(REMOVE_DUPLICATES kinds)
   foreach(kind IN LISTS kinds)
-    set(size ${THINWALL_BATCH_SIZE})
-    if(kind STREQUAL CGAL)
-      set(size 4)  # so that two cores have one each
-    endif()
     list(LENGTH sources_${kind} number)
     set(taken 0)
-    math(EXPR batches "(${number} + ${size} - 1) / ${size}")
+    math(EXPR batches "(${number} + ${THINWALL_BATCH_SIZE} - 1) / ${THINWALL_BATCH_SIZE}")
     foreach(source IN LISTS sources_${kind})
       math(EXPR batch "${taken} * ${batches} / ${number}")
       math(EXPR taken "${taken} + 1")

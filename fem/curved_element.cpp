@@ -20,7 +20,7 @@ int points_for(int order) {
   return std::max(order + 1, (3 * order - 1) / 2);
 }
 
-CurvedReference make(int order) {
+CurvedReference evaluated_reference(int order) {
   const TetQuadrature rule = tet_quadrature(points_for(order));
   CurvedReference reference;
   reference.order = order;
@@ -44,7 +44,7 @@ const CurvedReference& curved_reference(int order) {
   static std::mutex mutex;
   const std::scoped_lock lock(mutex);
   auto& reference = made[static_cast<std::size_t>(order)];
-  if (!reference) reference = std::make_unique<CurvedReference>(make(order));
+  if (!reference) reference = std::make_unique<CurvedReference>(evaluated_reference(order));
   return *reference;
 }
 

@@ -158,7 +158,7 @@ Eigen::Matrix3d slopes_integral(const Halves& halves, const std::array<int, 4>& 
   return D;
 }
 
-ReferenceElement make(int order) {
+ReferenceElement integrated_element(int order) {
   const auto alphas = mesh::lattice(order);
   const Halves halves(order);
   ReferenceElement element;
@@ -226,7 +226,7 @@ const ReferenceElement& reference_element(int order) {
   static std::mutex mutex;
   const std::scoped_lock lock(mutex);
   auto& element = made[static_cast<std::size_t>(order)];
-  if (!element) element = std::make_unique<ReferenceElement>(make(order));
+  if (!element) element = std::make_unique<ReferenceElement>(integrated_element(order));
   return *element;
 }
 

@@ -26,7 +26,7 @@ using Place = std::ptrdiff_t;
 constexpr Place tile = 128;  // columns of a tile of a front that threads share
 
 /// A dense block of a column-major matrix.
-struct Block {
+struct DenseBlock {
   double* values = nullptr;
   Place stride = 0;
 
@@ -47,7 +47,7 @@ Front front(const SymbolicFactor& L, int s) {
 }
 
 /// Factorises A₁₁ = L Lᵀ in place on the lower triangle. Returns the first column without a positive pivot, or −1.
-Place cholesky(Block A, Place columns) {
+Place cholesky(DenseBlock A, Place columns) {
   const int n = static_cast<int>(columns);
   const int stride = static_cast<int>(A.stride);
   int info = 0;
@@ -60,20 +60,20 @@ Place cholesky(Block A, Place columns) {
 }
 
 /// B ← B L⁻ᵀ; L: columns × columns, B: rows × columns.
-void divide(Block L, Block B, Place rows, Place columns) {
+void divide(DenseBlock L, DenseBlock B, Place rows, Place columns) {
   cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, static_cast<int>(rows),
               static_cast<int>(columns), 1.0, L.values, static_cast<int>(L.stride), B.values,
               static_cast<int>(B.stride));
 }
 
 /// C ← s C − B Bᵀ on the lower triangle; B: rows × columns.
-void subtract_square(Block B, Block C, Place rows, Place columns, double s) {
+void subtract_square(DenseBlock B, DenseBlock C, Place rows, Place columns, double s) {
   cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, static_cast<int>(rows), static_cast<int>(columns), -1.0,
               B.values, static_cast<int>(B.stride), s, C.values, static_cast<int>(C.stride));
 }
 
 /// C ← s C − A Bᵀ; A: rows × inner, B: columns × inner.
-void subtract_product(Block A, Block B, Block C, Place rows, Place columns, Place inner, double s) {
+void subtract_product(DenseBlock A, DenseBlock B, DenseBlock C, Place rows, Place columns, Place inner, double s) {
   cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, static_cast<int>(rows), static_cast<int>(columns),
               static_cast<int>(inner), -1.0, A.values, static_cast<int>(A.stride), B.values, static_cast<int>(B.stride),
               s, C.values, static_cast<int>(C.stride));
@@ -86,20 +86,20 @@ struct Alone {
     for (Place i = 0; i < count; ++i) body(i);
   }
   /// Factorises the panel P, F_JJ = L_JJ L_JJᵀ, L_IJ = F_IJ L_JJ⁻ᵀ; returns a column without a positive pivot, or −1.
-  static Place factor_panel(Block P, Front f) {
+  static Place factor_panel(DenseBlock P, Front f) {
     const Place failed = cholesky(P, f.columns);
     if (failed < 0 && f.below() > 0) divide(P, {P.at(f.columns, 0), P.stride}, f.below(), f.columns);
     return failed;
   }
   /// U ← −L_IJ L_IJᵀ.
-  static void update(Block P, Front f, Block U) {
+  static void update(DenseBlock P, Front f, DenseBlock U) {
     subtract_square({P.at(f.columns, 0), P.stride}, U, f.below(), f.columns, 0.0);
   }
 };
 
 /// C ← s C − B Bᵀ on the tiles on and below the diagonal of C, shared among all threads; C: rows × columns, B: rows ×
 /// inner. Tiles on the diagonal are computed whole; what they hold above it is never read.
-void subtract_tiles(Block B, Block C, Place rows, Place columns, Place inner, double s) {
+void subtract_tiles(DenseBlock B, DenseBlock C, Place rows, Place columns, Place inner, double s) {
   struct Tile {
     Place row, column;
   };
@@ -127,10 +127,10 @@ struct Shared {
   /// Goes through the panel by block columns of `tile` columns and subtracts each at once from all columns to its right
   /// (right-looking), because only that large update and the division by the diagonal tile can be shared among threads;
   /// the small diagonal tile is factorised by the calling thread.
-  static Place factor_panel(Block P, Front f) {
+  static Place factor_panel(DenseBlock P, Front f) {
     for (Place first = 0; first < f.columns; first += tile) {
       const Place columns = std::min(tile, f.columns - first);
-      const Block diagonal{P.at(first, first), P.stride};
+      const DenseBlock diagonal{P.at(first, first), P.stride};
       const Place failed = cholesky(diagonal, columns);
       if (failed >= 0) return first + failed;
       const Place next = first + columns;
@@ -143,7 +143,7 @@ struct Shared {
     }
     return -1;
   }
-  static void update(Block P, Front f, Block U) {
+  static void update(DenseBlock P, Front f, DenseBlock U) {
     subtract_tiles({P.at(f.columns, 0), P.stride}, U, f.below(), f.below(), f.columns, 0.0);
   }
 };
@@ -237,8 +237,10 @@ struct Multifrontal {
   std::vector<int> position;    // old row → new position
   std::vector<double*> update;  // update matrix of each supernode that has been eliminated
 
-  [[nodiscard]] Block panel(int s) const { return {values + L.value(s), L.height(s)}; }
-  [[nodiscard]] Block update_matrix(int s) const { return {update[static_cast<std::size_t>(s)], front(L, s).below()}; }
+  [[nodiscard]] DenseBlock panel(int s) const { return {values + L.value(s), L.height(s)}; }
+  [[nodiscard]] DenseBlock update_matrix(int s) const {
+    return {update[static_cast<std::size_t>(s)], front(L, s).below()};
+  }
 
   /// Finds the place in the front of supernode s of each of its own rows, and then of the rows of its children's update
   /// matrices. These are a subset of its own rows, so that places left over from earlier fronts are never read.
@@ -274,10 +276,10 @@ struct Multifrontal {
   /// columns [from, to) of the front. F starts in the front's column `from`. A child's rows are ascending in the front,
   /// so that its columns in [from, to) are found by bisection.
   template <class Threads>
-  void extend_add(int s, Place from, Place to, Block F, const Workspace& work) const {
+  void extend_add(int s, Place from, Place to, DenseBlock F, const Workspace& work) const {
     const int* target = work.targets.data();
     for (const int child : tree.of(s)) {
-      const Block U = update_matrix(child);
+      const DenseBlock U = update_matrix(child);
       const int* const end = target + U.stride;
       const Place first = std::lower_bound(target, end, from) - target;
       const Place last = std::lower_bound(target, end, to) - target;
@@ -304,7 +306,7 @@ struct Multifrontal {
     const Place failed = Threads::factor_panel(panel(s), f);
     if (failed >= 0) return L.column(s) + failed;
     const std::size_t parity = tree.parity(s);
-    const Block U{work.stack[parity].data() + work.used[parity], f.below()};
+    const DenseBlock U{work.stack[parity].data() + work.used[parity], f.below()};
     if (f.below() > 0) Threads::update(panel(s), f, U);
     // Rows of a front are counted from its first row, those of U from the first row below the columns.
     extend_add<Threads>(s, f.columns, f.rows, {U.values - f.columns, U.stride}, work);

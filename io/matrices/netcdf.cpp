@@ -25,9 +25,9 @@ std::size_t width_of(std::int64_t type) {
 }
 
 /// Reads a heading from front to back.
-class Heading {
+class NetcdfHeading {
  public:
-  Heading(std::string_view bytes, const std::string& path) : bytes_(bytes), path_(path), version_(bytes[3]) {}
+  NetcdfHeading(std::string_view bytes, const std::string& path) : bytes_(bytes), path_(path), version_(bytes[3]) {}
 
   std::vector<NetcdfVariable> variables() {
     (void)count();  // records
@@ -165,7 +165,7 @@ bool is_netcdf4(std::string_view bytes) {
 
 std::vector<NetcdfVariable> netcdf_variables(std::string_view bytes, const std::string& path) {
   if (!is_netcdf(bytes)) throw core::DataError(path + ": is no NetCDF file of a classic format");
-  return Heading(bytes, path).variables();
+  return NetcdfHeading(bytes, path).variables();
 }
 
 const NetcdfVariable* find_variable(const std::vector<NetcdfVariable>& variables, std::string_view name) {

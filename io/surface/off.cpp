@@ -15,7 +15,7 @@ namespace {
 
 /// Reads the heading, which is optional, and returns the number of points. "4OFF" and "nOFF", which have other than
 /// three coordinates, are refused.
-std::int64_t read_heading(SurfaceText& text) {
+std::int64_t read_off_heading(SurfaceText& text) {
   std::string_view word = text.word();
   if (word.ends_with("OFF")) {
     const std::string_view kind = word.substr(0, word.size() - 3);
@@ -34,7 +34,7 @@ std::int64_t read_heading(SurfaceText& text) {
 mesh::TriangleSoup off_surface(std::string_view bytes, const std::string& name, double metres_per_unit) {
   require_metres_per_unit(metres_per_unit, name);
   SurfaceText text(bytes, name, '#');
-  const std::int64_t points = read_heading(text);
+  const std::int64_t points = read_off_heading(text);
   const std::int64_t count = text.whole_number("the number of facets", 1, largest_int);
   text.skip_line();  // the number of edges is not needed
   std::vector<Eigen::Vector3d> vertices;

@@ -22,7 +22,7 @@ constexpr int deepest = 32;
 constexpr std::size_t most_triangles = 20'000'000, most_objects = 100'000;
 
 /// The model's text, or the file's name and a fault.
-struct Source {
+struct ModelSource {
   const std::string& name;
 
   [[noreturn]] void fail(const std::string& what) const { throw core::DataError(name + ": " + what); }
@@ -36,7 +36,7 @@ struct Unit {
 constexpr std::array units{Unit{"micron", "um", 1e-6},   Unit{"millimeter", "mm", 1e-3}, Unit{"centimeter", "cm", 1e-2},
                            Unit{"inch", "inch", 0.0254}, Unit{"foot", "ft", 0.3048},     Unit{"meter", "m", 1.0}};
 
-Unit unit_of(const pugi::xml_node& model, const Source& source) {
+Unit unit_of(const pugi::xml_node& model, const ModelSource& source) {
   const std::string word = model.attribute("unit").as_string("millimeter");
   for (const Unit& unit : units) {
     if (word == unit.word) return unit;
@@ -45,7 +45,7 @@ Unit unit_of(const pugi::xml_node& model, const Source& source) {
 }
 
 template <class Number>
-Number number_of(const pugi::xml_node& node, const char* attribute, const Source& source) {
+Number number_of(const pugi::xml_node& node, const char* attribute, const ModelSource& source) {
   const char* text = node.attribute(attribute).as_string();
   Number value{};
   const auto [end, error] = std::from_chars(text, text + std::strlen(text), value);
@@ -57,7 +57,7 @@ Number number_of(const pugi::xml_node& node, const char* attribute, const Source
 }
 
 /// The transform of a component or of an item: twelve numbers, rows of a matrix that acts on rows.
-Eigen::Affine3d transform_of(const pugi::xml_node& node, const Source& source) {
+Eigen::Affine3d transform_of(const pugi::xml_node& node, const ModelSource& source) {
   Eigen::Affine3d transform = Eigen::Affine3d::Identity();
   const std::string text = node.attribute("transform").as_string();
   if (text.empty()) return transform;
@@ -79,7 +79,7 @@ Eigen::Affine3d transform_of(const pugi::xml_node& node, const Source& source) {
 
 class Model {
  public:
-  Model(const pugi::xml_node& model, const Source& source, double metres) : source_(source), metres_(metres) {
+  Model(const pugi::xml_node& model, const ModelSource& source, double metres) : source_(source), metres_(metres) {
     for (const pugi::xml_node& object : model.child("resources").children("object")) {
       const std::string id = object.attribute("id").as_string();
       if (!objects_.emplace(id, object).second) source_.fail("two objects have the id " + io::quoted(id));
@@ -138,7 +138,7 @@ class Model {
       source_.fail("more than " + std::to_string(most_triangles) + " triangles or points");
   }
 
-  const Source& source_;
+  const ModelSource& source_;
   double metres_;
   std::map<std::string, pugi::xml_node> objects_;
   mesh::TriangleSoup soup_;
@@ -146,7 +146,7 @@ class Model {
 };
 
 /// The text of the archive's model.
-std::string model_text(std::string_view bytes, const Source& source) {
+std::string model_text(std::string_view bytes, const ModelSource& source) {
   const auto entries = zip_entries(bytes, source.name);
   const ZipEntry* found = nullptr;
   for (const ZipEntry& entry : entries) {
@@ -161,7 +161,7 @@ std::string model_text(std::string_view bytes, const Source& source) {
 }  // namespace
 
 ThreeMfSurface three_mf_surface(std::string_view bytes, const std::string& name) {
-  const Source source{name};
+  const ModelSource source{name};
   std::string text = model_text(bytes, source);
   pugi::xml_document document;
   const pugi::xml_parse_result parsed = document.load_buffer_inplace(text.data(), text.size());

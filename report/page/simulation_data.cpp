@@ -20,14 +20,14 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 /// The numbers of rows that a page carries of the tables of a point: fewer of each where there are many points.
-struct Rows {
+struct RowLimits {
   std::size_t samples = 4320;  // of a trace: six turns of 720
   std::size_t passes = 2000, lines = 4000, places = 3000;
 };
 
-Rows rows_for(std::size_t points) {
+RowLimits rows_for(std::size_t points) {
   constexpr std::size_t at_full_length = 6, most_points = 60;
-  Rows rows;
+  RowLimits rows;
   const std::size_t share = std::clamp(points, at_full_length, most_points);
   for (std::size_t* count : {&rows.samples, &rows.passes, &rows.lines, &rows.places})
     *count = *count * at_full_length / share;
@@ -95,7 +95,7 @@ json walls_of(const fs::path& file, std::size_t most) {
   return list;
 }
 
-json point_of(const fs::path& folder, const SimulatedPointSummary& point, const Rows& rows) {
+json point_of(const fs::path& folder, const SimulatedPointSummary& point, const RowLimits& rows) {
   json result = {{"files", point.files}};
   const auto add = [&](const char* key, const std::string& ending, const auto& made) {
     if (const fs::path file = folder / (point.files + ending); fs::exists(file)) result[key] = made(file);
@@ -149,7 +149,7 @@ json simulation_data(const fs::path& results, const Summary& summary) {
   if (!summary.simulation) return nullptr;
   const fs::path folder = results / "simulation";
   json data = {{"points", json::array()}, {"maps", json::array()}};
-  const Rows rows = rows_for(summary.simulation->points.size());
+  const RowLimits rows = rows_for(summary.simulation->points.size());
   for (const SimulatedPointSummary& point : summary.simulation->points)
     data["points"].push_back(point_of(folder, point, rows));
   for (const AmplitudeMapSummary& map : summary.simulation->maps) {

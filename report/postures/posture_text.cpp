@@ -15,7 +15,7 @@ std::string percent(double share) {
   return core::number_text(100.0 * share, 2) + " %";
 }
 
-std::string length(double m) {
+std::string length_text(double m) {
   return core::readable_text(m, core::kind::length);
 }
 
@@ -118,9 +118,9 @@ std::string map_lines(const LearnedRobotSummary& robot) {
                                  hertz(map.least_first_hz), hertz(map.largest_first_hz));
   if (!map.least_depth_m) return text;
   return text + fmt::format("            stable to {} to {}; least at {}: 95 % between {} and {}\n",
-                            length(*map.least_depth_m), length(*map.largest_depth_m),
-                            place(robot.over, map.least_depth_at), length(*map.least_depth_low_m),
-                            length(*map.least_depth_high_m));
+                            length_text(*map.least_depth_m), length_text(*map.largest_depth_m),
+                            place(robot.over, map.least_depth_at), length_text(*map.least_depth_low_m),
+                            length_text(*map.least_depth_high_m));
 }
 
 std::string envelope_line(const LearnedRobotSummary& robot) {
@@ -128,7 +128,7 @@ std::string envelope_line(const LearnedRobotSummary& robot) {
   const EnvelopeSummary& at = *robot.envelope;
   return fmt::format(
       "  envelope  at robot.at modes below {} alone allow {} at every speed, those above {}; all together {}\n",
-      hertz(at.split_hz), length(at.least_low_m), length(at.least_high_m), length(at.least_together_m));
+      hertz(at.split_hz), length_text(at.least_low_m), length_text(at.least_high_m), length_text(at.least_together_m));
 }
 
 std::string next_line(const LearnedRobotSummary& robot) {
