@@ -309,7 +309,9 @@ CoarseCrossings scan(const HelicalSearch& search, const StabilityOptions& option
   while (low.depth_m < wanted_m(result.found, options)) {
     std::optional<Probe> high =
         search.after(low, std::min(next_look(search, low.depth_m, options), wanted_m(result.found, options)));
-    const bool explained = high && search.between(low, *high, 5, result);
+    // Deep in an unstable range no limit depends on what is found, which is not worth many grids.
+    const int halvings = low.unstable > 0 && high && high->unstable > 0 ? 1 : 5;
+    const bool explained = high && search.between(low, *high, halvings, result);
     std::ranges::sort(result.found, {}, &Crossing::depth_m);
     if (!explained) break;
     low = std::move(*high);

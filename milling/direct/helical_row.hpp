@@ -13,8 +13,9 @@ namespace thinwall::milling {
 /// unit circle as the force alone grows (CriticalDepths) tells whether the cut is stable there, and where crossings of
 /// other depths lie near. Those are brought to grids of their own depth by Newton's rule for angle and depth. Where
 /// they do not add up to the change from one depth to the next the step is halved. Deep in an unstable range
-/// multipliers are counted instead, and crossings that cancel within a step are left out. With `follow` = 1 only the
-/// first crossing is looked for, and those within a tenth of it.
+/// multipliers are counted instead, crossings that cancel within a step are left out, and a step is halved once at
+/// most: the row ends (searched_m) where that does not explain the counts. With `follow` = 1 only the first crossing is
+/// looked for, and those within a tenth of it.
 ///
 /// Checked as rows without helix (stability.hpp): no multiplier outside just below the first crossing, as many as the
 /// crossings say at the end of the search, or the search ends earlier (searched_m). A row that fails is searched again

@@ -128,18 +128,24 @@ ChipTerms chip_terms(const ContactGrid& grid) {
 }
 
 /// The motion of the modes at a node in the chips of the contacts there: `flow` e^{λt}, and `forced`, the motion by
-/// unit forces at all contacts, poles × contacts.
+/// unit forces at all contacts, real parts above imaginary ones, 2 poles × contacts. It is added to E and to the
+/// transpose of K.
 void add_motion(const RelativeStructure& structure, const std::vector<ChipTerm>& terms, const Eigen::VectorXcd& flow,
-                const Eigen::MatrixXcd& forced, const Eigen::VectorXd& share, Eigen::MatrixXd& E, Eigen::MatrixXd& K) {
+                const Eigen::MatrixXd& forced, const Eigen::VectorXd& share, Eigen::MatrixXd& E, Eigen::MatrixXd& Kt) {
+  if (terms.empty()) return;
   const Index poles = flow.size();
-  for (const ChipTerm& term : terms) {
-    const Eigen::RowVectorXcd shape = term.chip.transpose() * structure.phi;
-    const Eigen::RowVectorXcd free = shape.cwiseProduct(flow.transpose());
-    E.row(term.row).head(poles) += free.real();
-    E.row(term.row).tail(poles) += free.imag();
+  Eigen::MatrixXd seen(2 * poles, static_cast<Index>(terms.size()));
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const Eigen::VectorXcd shape = structure.phi.transpose() * terms[i].chip;
+    const Eigen::VectorXcd free = shape.cwiseProduct(flow);
+    E.row(terms[i].row).head(poles) += free.real();
+    E.row(terms[i].row).tail(poles) += free.imag();
     // A mode and its conjugate together move by twice the real part; a real pole has half a share.
-    K.row(term.row) += 2.0 * (shape.cwiseProduct(share.transpose()) * forced).real();
+    seen.col(static_cast<Index>(i)) << 2.0 * shape.real().cwiseProduct(share), -2.0 * shape.imag().cwiseProduct(share);
   }
+  // One real product for all terms of the node, since real parts alone are wanted.
+  const Eigen::MatrixXd motion = forced.transpose() * seen;
+  for (std::size_t i = 0; i < terms.size(); ++i) Kt.col(terms[i].row) += motion.col(static_cast<Index>(i));
 }
 
 /// Adds the static residual R: a contact's force moves its own node at once, and no other.
@@ -261,28 +267,30 @@ RegenerativeLoop regenerative_loop(const RelativeStructure& structure, const Con
   for (Index l = 0; l < contacts; ++l)
     modal_force.col(l) = structure.b.transpose() * grid.contacts[static_cast<std::size_t>(l)].force;
   const auto forced_by_contacts = [&](const Eigen::MatrixXcd& by_nodes) {
-    Eigen::MatrixXcd forced(poles, contacts);
+    Eigen::MatrixXd forced = Eigen::MatrixXd::Zero(2 * poles, contacts);
     for (Index l = 0; l < contacts; ++l) {
       const Index node = grid.contacts[static_cast<std::size_t>(l)].node;
-      if (node < by_nodes.cols()) forced.col(l) = modal_force.col(l).cwiseProduct(by_nodes.col(node));
-      else forced.col(l).setZero();
+      if (node >= by_nodes.cols()) continue;
+      const Eigen::VectorXcd motion = modal_force.col(l).cwiseProduct(by_nodes.col(node));
+      forced.col(l) << motion.real(), motion.imag();
     }
     return forced;
   };
-  // Node by node, since the motion of all modes at a node serves all contacts that look at it.
+  // Node by node, since the motion of all modes at a node serves all contacts that look at it. A contact's row of K is
+  // gathered as a column, whose numbers lie side by side.
+  Eigen::MatrixXd Kt = loop.K, Kt_previous = loop.K_previous;
   const ChipTerms terms = chip_terms(grid);
   for (int node = 0; node < static_cast<int>(grid.node_rad.size()); ++node) {
     core::check_interrupt();
     const Eigen::VectorXcd flow = history.flow(grid.node_rad(node));
-    const Eigen::MatrixXcd forced = forced_by_contacts(history.at_node(node));
+    const Eigen::MatrixXd forced = forced_by_contacts(history.at_node(node));
     const auto i = static_cast<std::size_t>(node);
-    add_motion(structure, terms.now[i], flow, forced, loop.share, loop.E, loop.K);
-    if (!grid.one_delay)
-      add_motion(structure, terms.before[i], flow, forced, loop.share, loop.E_previous, loop.K_previous);
+    add_motion(structure, terms.now[i], flow, forced, loop.share, loop.E, Kt);
+    if (!grid.one_delay) add_motion(structure, terms.before[i], flow, forced, loop.share, loop.E_previous, Kt_previous);
   }
-  const Eigen::MatrixXcd L = forced_by_contacts(history.at_end());
-  loop.L.resize(2 * poles, contacts);
-  loop.L << L.real(), L.imag();
+  loop.K = Kt.transpose();
+  loop.K_previous = Kt_previous.transpose();
+  loop.L = forced_by_contacts(history.at_end());
   add_residual(structure, grid, terms.now, loop.K);
   if (!grid.one_delay) add_residual(structure, grid, terms.before, loop.K_previous);
   return loop;
