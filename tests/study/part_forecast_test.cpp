@@ -127,7 +127,7 @@ mesh::TetMesh row_of_boxes(int count, const Eigen::Vector3d& size) {
 }
 
 /// Seconds of a part with the surface and the first mesh `mesh` that one of its faces holds.
-double seconds_held_by(const std::string& face, const mesh::TetMesh& mesh) {
+double seconds_held_by(const std::string& face, const mesh::TetMesh& mesh, const std::string& points = "") {
   std::string stl = "solid part\n";
   for (const mesh::BoundaryTriangle& triangle : mesh::boundary(mesh)) {
     stl += "facet normal 0 0 0\nouter loop\n";
@@ -142,7 +142,7 @@ double seconds_held_by(const std::string& face, const mesh::TetMesh& mesh) {
   const cases::Case source = cases::parse_case(
       "[part]\nfile = \"part.stl\"\nunit = \"mm\"\n[part.material]\nyoungs_modulus = \"70 GPa\"\npoisson_ratio = 0.3\n"
       "density = \"2700 kg/m^3\"\n[part.mesh]\ntolerance = 0.02\n[[part.supports]]\non = \"" +
-          face + "\"\n[modes]\ncount = 1\n[damping]\nratio = 0.01\n",
+          face + "\"\n[modes]\ncount = 1\n[damping]\nratio = 0.01\n" + points,
       folder.path);
   return study::forecast(study::part_input(source), std::make_shared<fem::FirstMesh>(fem::FirstMesh{mesh, {}}))
       .value()
@@ -157,6 +157,13 @@ TEST(PartForecast, AThinWallThatIsLowerThanItsElementsAreLongTakesAllOrders) {
   EXPECT_GT(seconds_held_by("z_min", wall), 3.0 * seconds_held_by("x_min", wall));
   const mesh::TetMesh cube = row_of_boxes(1, {0.012, 0.012, 0.012});
   EXPECT_EQ(seconds_held_by("z_min", cube), seconds_held_by("x_min", cube));
+}
+
+// Frequencies of a block meet 2 % on its first mesh; the receptance of a point of it may take a finer one.
+TEST(PartForecast, ReceptancesOfAHeldPartMayTakeAFinerMesh) {
+  const mesh::TetMesh row = row_of_boxes(3, {0.01, 0.01, 0.01});
+  const std::string point = "[points.P]\nposition = [\"30 mm\", \"5 mm\", \"5 mm\"]\npatch_radius = \"1 mm\"\n";
+  EXPECT_GT(seconds_held_by("x_min", row, point), 2.0 * seconds_held_by("x_min", row));
 }
 
 }  // namespace
