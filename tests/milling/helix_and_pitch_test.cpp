@@ -225,11 +225,13 @@ TEST(Helix, ShallowCutsAreNoFurtherOffThanTheyClaim) {
 
 TEST(Helix, TheFirstCrossingIsTheSameWhateverElseIsWantedAndExpected) {
   std::mt19937_64 engine(2);
+  int found = 0;
   for (int i = 0; i < 8; ++i) {
     const ShallowCut cut = shallow_cut(engine);
     const RelativeStructure poles = relative_structure(testing::modal_model(cut.modes), "P");
     const LobeRow all = limiting_depth(poles, cut.process, cut.rpm, StabilityOptions{});
     if (all.at_limit || all.status != StabilityStatus::converged) continue;
+    ++found;
     for (const double follow : {1.0, 3.0}) {
       for (const double expected : {0.3, 1.0, 4.0}) {
         StabilityOptions options;
@@ -244,6 +246,7 @@ TEST(Helix, TheFirstCrossingIsTheSameWhateverElseIsWantedAndExpected) {
       }
     }
   }
+  EXPECT_GE(found, 6);
 }
 
 TEST(Helix, SearchesUpToTheEndOfTheEdgesAndNotBeyond) {

@@ -219,6 +219,7 @@ TEST(RefinedLine, AddedSpeedsFollowTheCrossingsBesideTheFirstAndAskedOnesAll) {
   const Lobes even = even_chart(3000.0, 18000.0, 40, row_in_closed_form, options);
   const Lobes chart = refined(even, row_at, two_teeth(), options, {}, {asked_rpm});
   ASSERT_GT(chart.line->speeds_added, 10);
+  ASSERT_TRUE(followed.contains(asked_rpm));
   for (const auto& [rpm, follow] : followed) {
     if (rpm == asked_rpm) EXPECT_EQ(follow, options.follow);
     else EXPECT_EQ(follow, 3.0) << rpm;
