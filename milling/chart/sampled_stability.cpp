@@ -205,12 +205,12 @@ std::optional<Eigen::ArrayXd> changes_by(const CrossingGrid& grid, const Crossin
   return changes;
 }
 
-/// What the spacing of the lines and the modes within them leave open of a depth, relative: twice the larger change by
-/// every second line, and the change by the lines within, or that by modes above them if it is larger. 3 if a crossing
-/// is lost.
+/// The part of a depth that the spacing of the lines and the modes within them leave open, relative: twice the larger
+/// change by every second line, and the change by the lines within, or that by modes above them if it is larger. 3 if a
+/// crossing is lost.
 double open_by_lines(const CrossingGrid& grid, const Crossing& crossing, const FittedStructure& structure,
                      const std::optional<DepthWeights>& weights) {
-  constexpr double small = 0.01;  // the square is less than a hundredth of the change
+  constexpr double small = 0.01;  // its square is a hundredth of the change, which is doubled
   const Fits fits{&structure.even, &structure.odd, &structure.within};
   const std::optional<Eigen::ArrayXd> changes = changes_by(grid, crossing, structure.all, fits, weights, small);
   if (!changes) return 3.0;
@@ -221,7 +221,7 @@ double open_by_lines(const CrossingGrid& grid, const Crossing& crossing, const F
 /// The standard deviation of a depth by noise, relative, by jackknife_deviation(). 1 if a crossing is lost.
 double deviation(const CrossingGrid& grid, const Crossing& crossing, const FittedStructure& structure,
                  const std::optional<DepthWeights>& weights) {
-  constexpr double small = 0.03;  // five standard deviations are some ten times their error
+  constexpr double small = 0.03;  // its square is a thirtieth of the change; five deviations are taken
   if (structure.without.empty()) return 0.0;
   Fits fits;
   for (const Fit& fit : structure.without) fits.push_back(&fit);

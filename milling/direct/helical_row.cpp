@@ -294,7 +294,7 @@ class HelicalSearch {
 /// first step, the first look goes a fifth beyond that: a search costs an eigenvalue problem at every stop that its
 /// depth can reach.
 double next_look(const HelicalSearch& search, double depth_m, const StabilityOptions& options) {
-  constexpr double few = 3.0;  // times the first
+  constexpr double few = 3.0;  // times the first, as at the speeds that are added to a chart (refined_lobes.cpp)
   const double next = search.next_depth(depth_m);
   if (depth_m > 0.0 || options.follow > few || !options.expected_depth_m) return next;
   const double near = 1.2 * *options.expected_depth_m;
