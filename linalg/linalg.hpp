@@ -16,6 +16,7 @@
 #include "linalg/library_threads.hpp"
 #include "linalg/ordering.hpp"
 #include "linalg/rayleigh_quotients.hpp"
+#include "linalg/real_eigenvalues.hpp"
 #include "linalg/sparse.hpp"
 #include "linalg/sparse_cholesky.hpp"
 #include "linalg/sparse_indefinite.hpp"

@@ -6,13 +6,15 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 
-#include "core/dense_eigenvalues.hpp"
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "linalg/real_eigenvalues.hpp"
 #include "milling/cut/edge.hpp"
 #include "milling/direct/chatter_frequency.hpp"
+#include "milling/direct/dominant_eigenvalue.hpp"
 #include "milling/direct/vanishing_powers.hpp"
 
 namespace thinwall::milling {
@@ -79,9 +81,7 @@ std::optional<Eigen::VectorXcd> found_multipliers(const DiscreteCut& d, double d
   constexpr double hair = 1e-9;
   if (!map.allFinite()) map = period_map(d.loop, (1.0 + hair) * depth_m);
   if (!map.allFinite()) return std::nullopt;
-  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(map, false);
-  if (eigen.info() != Eigen::Success) return std::nullopt;
-  return eigen.eigenvalues();
+  return linalg::real_eigenvalues(std::move(map));
 }
 
 }  // namespace
@@ -176,6 +176,20 @@ int unstable(const DiscreteCut& d, double depth_m) {
   const std::optional<Eigen::VectorXcd> found = found_multipliers(d, depth_m);
   if (!found) return std::numeric_limits<int>::max();
   return static_cast<int>((found->cwiseAbs().array() > 1.0).count());
+}
+
+bool clearly_unstable(const DiscreteCut& d, double depth_m) {
+  constexpr double tolerance = 1e-6, clearly = 1.001;
+  const Eigen::MatrixXd map = period_map(d.loop, depth_m);
+  if (map.allFinite()) {
+    const auto product = [&map](const Eigen::Ref<const Eigen::VectorXd>& in, Eigen::Ref<Eigen::VectorXd> out) {
+      core::check_interrupt();
+      out.noalias() = map * in;
+    };
+    const DominantEigenvalue largest = dominant_eigenvalue(product, map.rows(), tolerance);
+    if (largest.converged) return std::abs(largest.value) > clearly;
+  }
+  return unstable(d, depth_m) > 0;
 }
 
 bool stable(const DiscreteCut& d, double depth_m) {

@@ -206,6 +206,22 @@ class HelicalSearch {
     }
   }
 
+  [[nodiscard]] bool clearly_unstable(double depth_m) const {
+    return milling::clearly_unstable(discrete(cut_, resolution(depth_m), depth_m), depth_m);
+  }
+
+  /// The first crossing up to a depth, by the shape that the cut has at a depth where it is all but surely stable: a
+  /// guess of where it is by its own shape. The depth itself where none is found.
+  [[nodiscard]] double likely_first_m(double to_m) const {
+    const double shape_m = std::min(8.0 * surely_stable_depth_m(cut_), to_m);
+    try {
+      const DiscreteCut d = discrete(cut_, resolution(shape_m), shape_m);
+      return first_crossing(gain_of(d), {.depth_limit_m = to_m}).depth_m();
+    } catch (const core::NumericalError&) {
+      return to_m;
+    }
+  }
+
   /// Steps in which neither the stretch of a tooth in the cut grows by more than 12 % nor, with unequal helices, the
   /// delay by more than a radian of the fastest mode; on round ends the depth itself shapes the cut.
   [[nodiscard]] double next_depth(double depth_m) const {
@@ -290,25 +306,50 @@ class HelicalSearch {
   bool first_alone_;
 };
 
-/// The depth to look at next. Where few crossings beyond the first are wanted and a neighbour's is shallow beside the
-/// first step, the first look goes a fifth beyond that: a search costs an eigenvalue problem at every stop that its
-/// depth can reach.
-double next_look(const HelicalSearch& search, double depth_m, const StabilityOptions& options) {
-  constexpr double few = 3.0;  // times the first, as at the speeds that are added to a chart (refined_lobes.cpp)
+/// The depth to look at next. A search costs an eigenvalue problem at every stop that its depth can reach, so that the
+/// first look goes a fifth beyond where the first crossing is likely if that is shallow beside the first step, and
+/// further ones, while there is no crossing, to no more than so many times the depth.
+double next_look(const HelicalSearch& search, double depth_m, bool crossed, const StabilityOptions& options) {
+  constexpr double most_growth = 2.5;
   const double next = search.next_depth(depth_m);
-  if (depth_m > 0.0 || options.follow > few || !options.expected_depth_m) return next;
-  const double near = 1.2 * *options.expected_depth_m;
+  if (depth_m > 0.0) return crossed ? next : std::min(next, most_growth * depth_m);
+  const double near = 1.2 * (options.expected_depth_m ? *options.expected_depth_m : search.likely_first_m(next));
   return near > 0.0 && near < 0.5 * next ? near : next;
+}
+
+/// Where the cut is stable again above a depth at which it is not, as far as the steps of the search tell; none if
+/// nowhere up to `to_m`.
+std::optional<double> stable_again_m(const HelicalSearch& search, double depth_m, double to_m) {
+  while (depth_m < to_m) {
+    depth_m = std::min(search.next_depth(depth_m), to_m);
+    if (!search.clearly_unstable(depth_m)) return depth_m;
+  }
+  return std::nullopt;
 }
 
 /// The depths from 0 to where the crossings are wanted, to where what is found no longer explains the counts, or to
 /// where an eigen-solution fails.
 CoarseCrossings scan(const HelicalSearch& search, const StabilityOptions& options) {
+  // Grids grow with the depth, and a crossing takes time with their third power. The line of a chart follows lobes from
+  // row to row while they are no deeper than this; beyond it crossings matter where the cut is stable again only.
+  constexpr double deep = 2.0;  // times the first crossing
   CoarseCrossings result;
   Probe low;
+  double again_m = 0.0;  // where the cut is stable again
   while (low.depth_m < wanted_m(result.found, options)) {
+    const double wanted = wanted_m(result.found, options);
+    const double deep_m = result.found.empty() ? INFINITY : deep * result.found.front().depth_m;
+    if (low.unstable > 0 && low.depth_m >= std::max(deep_m, again_m)) {
+      const std::optional<double> again = stable_again_m(search, low.depth_m, wanted);
+      if (!again) {
+        result.unstable_to_m = wanted;
+        break;
+      }
+      again_m = *again;
+    }
+    const double end = low.depth_m < deep_m ? std::min(deep_m, wanted) : wanted;
     std::optional<Probe> high =
-        search.after(low, std::min(next_look(search, low.depth_m, options), wanted_m(result.found, options)));
+        search.after(low, std::min(next_look(search, low.depth_m, !result.found.empty(), options), end));
     // Deep in an unstable range no limit depends on what is found, which is not worth many grids.
     const int halvings = low.unstable > 0 && high && high->unstable > 0 ? 1 : 5;
     const bool explained = high && search.between(low, *high, halvings, result);

@@ -14,8 +14,10 @@ namespace thinwall::milling {
 /// other depths lie near. Those are brought to grids of their own depth by Newton's rule for angle and depth. Where
 /// they do not add up to the change from one depth to the next the step is halved. Deep in an unstable range
 /// multipliers are counted instead, crossings that cancel within a step are left out, and a step is halved once at
-/// most: the row ends (searched_m) where that does not explain the counts. With `follow` = 1 only the first crossing is
-/// looked for, and those within a tenth of it.
+/// most: the row ends (searched_m) where that does not explain the counts. Beyond twice the first crossing only the
+/// largest multiplier is looked at in these steps; crossings are found there if one of the looks tells that the cut is
+/// stable again, so that a stable range which is thinner than a step may be missed. With `follow` = 1 only the first
+/// crossing is looked for, and those within a tenth of it.
 ///
 /// Checked as rows without helix (stability.hpp): no multiplier outside just below the first crossing, as many as the
 /// crossings say at the end of the search, or the search ends earlier (searched_m). A row that fails is searched again

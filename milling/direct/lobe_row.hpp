@@ -81,13 +81,14 @@ struct LobeRow {
   bool at_limit = false;              ///< stable up to the depth limit
   double chatter_frequency_hz = 0.0;  ///< at the crossing, or of the least damped motion at the limit
   Bifurcation kind = Bifurcation::hopf;
-  double error_estimate = 0.0;       ///< relative, of the depth; at the limit of |μ|
-  double modulus_at_limit = 0.0;     ///< |μ| at the depth limit, if `at_limit`; 0: not known
-  double searched_m = 0.0;           ///< the depth up to which crossings are known: they add up to the multipliers
-                                     ///< that are unstable there. Less than was wanted if deeper ones do not
+  double error_estimate = 0.0;    ///< relative, of the depth; at the limit of |μ|
+  double modulus_at_limit = 0.0;  ///< |μ| at the depth limit, if `at_limit`; 0: not known
+  double searched_m = 0.0;        ///< the depth up to which stable ranges are known: the crossings add up to the
+                                  ///< multipliers that are unstable there. Less than was wanted if deeper ones do not
   std::vector<LobePoint> crossings;  ///< all up to there, ascending: islands and gaps too. Those that bound a
                                      ///< stable range meet the tolerance; deep in an unstable range, beyond one whose
-                                     ///< estimate exceeds 1e-3, others may be missing
+                                     ///< estimate exceeds 1e-3, others may be missing, and with a helix beyond twice
+                                     ///< the first those above which the cut is nowhere stable again
   int nodes = 0;                     ///< in the cut
   StabilityStatus status = StabilityStatus::converged;
 };

@@ -45,6 +45,8 @@ class FixedGrids : public SearchGrids {
 struct CoarseCrossings {
   std::vector<Crossing> found;  ///< by rising depth
   double searched_m = 0.0;      ///< the depth up to which they are all
+  double unstable_to_m = 0.0;   ///< from there on the cut was unstable wherever it was looked at, up to this depth; 0:
+                                ///< it was not looked at
 };
 
 /// The options of a search: a twentieth beyond the depth limit, for a crossing that lies there on a coarse grid may lie

@@ -326,8 +326,14 @@ Eigen::MatrixXd period_map(const RegenerativeLoop& loop, double depth_m) {
   const Eigen::MatrixXd system = Eigen::MatrixXd::Identity(contacts, contacts) + depth_m * loop.K;
   c = Eigen::PartialPivLU<Eigen::MatrixXd>(system).solve(c).eval();
   map.topRows(states).noalias() -= depth_m * (L * c);
+  if (loop.K_previous.size() == 0) {
+    // E⁻ = E and K⁻ = K, so that h⁺ = E z − w K c = c + h without a product.
+    map.bottomRows(contacts) = c;
+    map.bottomRightCorner(contacts, contacts).diagonal().array() += 1.0;
+    return map;
+  }
   map.bottomLeftCorner(contacts, states) = E_previous;
-  map.bottomRows(contacts).noalias() -= depth_m * (before(loop.K, loop.K_previous) * c);
+  map.bottomRows(contacts).noalias() -= depth_m * (loop.K_previous * c);
   return map;
 }
 
