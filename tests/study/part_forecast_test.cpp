@@ -166,5 +166,12 @@ TEST(PartForecast, ReceptancesOfAHeldPartMayTakeAFinerMesh) {
   EXPECT_GT(seconds_held_by("x_min", row, point), 2.0 * seconds_held_by("x_min", row));
 }
 
+TEST(PartForecast, AReductionToAToleranceTakesAsLongAgain) {
+  const mesh::TetMesh row = row_of_boxes(3, {0.01, 0.01, 0.01});
+  const std::string point = "[points.P]\nposition = [\"30 mm\", \"5 mm\", \"5 mm\"]\npatch_radius = \"1 mm\"\n";
+  EXPECT_DOUBLE_EQ(seconds_held_by("x_min", row, point + "[reduction]\ntolerance = 0.01\n"),
+                   2.0 * seconds_held_by("x_min", row, point + "[reduction]\nup_to = \"20 kHz\"\n"));
+}
+
 }  // namespace
 }  // namespace thinwall::tests::part_forecast_test
