@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "report/lobes/lobes_answers.hpp"
+#include "report/lobes/lobes_report.hpp"
+#include "report/terminal_report.hpp"
 
 namespace thinwall::report::headline_test {
 namespace {
@@ -88,6 +90,27 @@ TEST(Headline, NamesAnEdgeOfTheChartAndARobustPocketAsSuch) {
   summary.lobes[1].best_pocket->at_chart_edge = true;
   EXPECT_EQ(headline(summary)[1].find("Edge of the chart 20 mm at 2250 rpm"), 0U);
   EXPECT_EQ(headline(summary)[1].find("est pocket"), std::string::npos);
+}
+
+/// A list of pockets beside it may hold deeper ones, beyond the machine's limits for instance.
+TEST(Headline, CallsThatPocketBestWhichTheTerminalAndTheChartsReportCallBest) {
+  Summary summary = both("P", "P");
+  summary.lobes = {chart(ChartOf::supported, 0.0017, false)};
+  summary.lobes[0].best_pockets = {{8888.0, 0.025, false, "stability", {}, 8700.0, 8900.0, false}};
+  summary.lobes[0].best_pocket = {2250.0, 0.012, false, "stability", {}, 2190.0, 2260.0, false};
+  for (const bool at_edge : {false, true}) {
+    summary.lobes[0].best_pocket->at_chart_edge = at_edge;
+    EXPECT_NE(
+        headline(summary)[1].find(at_edge ? "Edge of the chart 12 mm at 2250 rpm" : "Best pocket 12 mm at 2250 rpm"),
+        std::string::npos);
+    EXPECT_NE(lobes_report(summary, "results")
+                  .find(at_edge ? "edge of the chart: 12.000 mm at 2250 rpm" : "best pocket: 12.000 mm at 2250 rpm"),
+              std::string::npos);
+    const std::string terminal = terminal_report(summary, "results");
+    EXPECT_NE(terminal.find("12.00 mm at 2250 rpm"), std::string::npos);
+    EXPECT_EQ(terminal.find("(edge)") != std::string::npos, at_edge);
+    EXPECT_EQ(terminal.find("8888"), std::string::npos);
+  }
 }
 
 TEST(Headline, TellsTheCutFromTheContactAndADepthLimitThatIsNotTheTool) {
