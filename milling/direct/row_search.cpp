@@ -145,7 +145,7 @@ LobeRow checked_row(SearchGrids& grids, CoarseCrossings coarse, double spindle_s
   row.searched_m = coarse.searched_m;
   std::size_t finest = 1;
   const std::vector<RefinedCrossing> all = refined(grids, std::move(coarse.found), options, row);
-  // Crossings that were left out bound no stable range, but only as far as none before them was left out.
+  // That the cut is unstable from the end of the search on says nothing where the row was cut back below that end.
   if (row.searched_m == coarse.searched_m) row.searched_m = std::max(row.searched_m, coarse.unstable_to_m);
   row.searched_m = std::min(row.searched_m, options.depth_limit_m);
   for (const RefinedCrossing& c : all) {
