@@ -15,6 +15,7 @@
 #include "mesh/surface/edge_uses.hpp"
 #include "mesh/surface/smooth_patches.hpp"
 #include "mesh/volume/beneath_curves.hpp"
+#include "mesh/volume/edge_rows.hpp"
 #include "mesh/volume/surface_to_volume.hpp"
 
 namespace thinwall::fem {
@@ -37,6 +38,7 @@ constexpr double share_of_curves = 0.4;           // of the tolerance, by which 
 constexpr double most_off = 0.02;                 // by volume, of curved elements that are taken nevertheless
 constexpr double most_straight = 30000.0;         // elements, about, beyond which they are
 constexpr double sharp_rad = 0.5235987755982988;  // 30°
+constexpr double most_for_rows = 1.2;             // unknowns with rows at order 4 over those without at order 6
 constexpr double untold_ratio = 2.0 / 3.0;  // of errors of successive orders without layers, 0.63 to 0.75 in strips
 
 void validate(const ClosedPartOptions& o) {
@@ -142,7 +144,35 @@ FirstMesh straight_mesh(const mesh::TriangleSurface& surface, const ClosedPartOp
   mesh::SurfaceMeshed result = meshed(surface, options, level);
   SurfaceFit fit{level, std::move(result.mesher), result.volume_error_relative, result.surface_distance_m,
                  std::move(result.failures)};
-  return {options.divided ? options.divided(std::move(result.mesh)) : std::move(result.mesh), std::move(fit)};
+  return {std::move(result.mesh), std::move(fit)};
+}
+
+/// The first mesh of a part of plane walls with rows of narrow elements at its sharp edges, if they pay: elements
+/// beside a re-entrant edge need order 6 without them and order 4 with them, which must then not have many more
+/// unknowns. They are few at long edges, as of profiles. Beside a wall that one element spans there are none, and of
+/// such edges there may be a tenth. Where a support ends within a face the mesh has layers already.
+FirstMesh with_rows_if_few(const mesh::TriangleSurface& surface, const ClosedPartOptions& options, FirstMesh first) {
+  const bool has_layers = std::ranges::any_of(options.supports, ends_within_a_face);
+  if (has_layers || first.fit.mesher != "TetGen" || !has_reentrant_edge(surface)) return first;
+  mesh::EdgeRows rows = mesh::with_rows_at_edges(first.mesh, sharp_rad);
+  const auto nodes = [](const mesh::TetMesh& mesh, int order) {
+    return static_cast<double>(mesh::lagrange_node_count(mesh, order));
+  };
+  const double count = nodes(rows.mesh, options.first_order + 1);
+  const bool is_small = options.largest_dofs == 0 || 3.0 * count <= static_cast<double>(options.largest_dofs);
+  const bool is_complete = rows.divided > 0 && 10 * rows.whole <= rows.divided;
+  first.has_rows = is_complete && is_small && count <= most_for_rows * nodes(first.mesh, options.last_order);
+  if (first.has_rows) first.mesh = std::move(rows.mesh);
+  return first;
+}
+
+/// The mesh of a level of straight elements, divided as the options say.
+FirstMesh straight_and_divided(const mesh::TriangleSurface& surface, const ClosedPartOptions& options, int level,
+                               bool is_plane) {
+  FirstMesh result = straight_mesh(surface, options, level);
+  if (level == 0 && is_plane) result = with_rows_if_few(surface, options, std::move(result));
+  if (options.divided) result.mesh = options.divided(std::move(result.mesh));
+  return result;
 }
 
 /// A mesh with curved elements.
@@ -231,7 +261,7 @@ FirstMesh mesh_of_level(const mesh::TriangleSurface& surface, const mesh::Smooth
   if (curved && suffices(*curved, options)) return std::move(curved->mesh);
   const bool is_usable = curved && curved->off() <= volume_of_chords;
   try {
-    FirstMesh straight = straight_mesh(surface, options, level);
+    FirstMesh straight = straight_and_divided(surface, options, level, patches == nullptr);
     if (!is_usable || can_be_solved(straight.mesh, options)) return straight;
   } catch (const core::NumericalError&) {
     core::check_interrupt();
@@ -261,6 +291,9 @@ SolidPart solid_part(const mesh::TriangleSurface& surface, const Material& mater
     const auto own =
         std::ranges::find_if(meshes, [&](const FirstMesh& m) { return m.mesh.tets == mesh.tets && m.shape; });
     return own == meshes.end() ? Shaping{} : shaping_by(own->shape);
+  };
+  part.has_rows = [&meshes](const mesh::TetMesh& mesh) {
+    return std::ranges::any_of(meshes, [&](const FirstMesh& m) { return m.has_rows && m.mesh.tets == mesh.tets; });
   };
   const double wanted = options.solid_volume_m3 > 0.0 ? options.solid_volume_m3 : mesh::volume(surface);
   part.shape_error = [wanted, density = material.density_kg_m3,

@@ -186,7 +186,9 @@ std::pair<Errors, Errors> compared(Refinement& r, int level, const Solution& bel
   RefinementStep step{level, model.nodes.order, model.K.rows(), frequency_change(below.modes, above.modes), {}};
   compare_receptances(below.responses, above.responses, above.modes, r.options.points, step);
   add_step(r, std::move(step));
-  auto errors = errors_of_last_two(r.estimate.steps, r.exponent, {r.options.untold_ratio, r.usual_order});
+  Untold untold{r.options.untold_ratio, r.usual_order};
+  if (r.part.has_rows && r.part.has_rows(above.model.mesh)) untold = {Untold{}.ratio, r.usual_order, true};
+  auto errors = errors_of_last_two(r.estimate.steps, r.exponent, untold);
   for (auto [model, of_it] : {std::pair{&below.model, &errors.first}, std::pair{&above.model, &errors.second}}) {
     add_shape(r.part, *model, *of_it);
     add_substructures(r.options.modes, *of_it);

@@ -35,15 +35,16 @@ std::optional<double> ratio_of_changes(const std::vector<RefinementStep>& steps,
 /// be below r. Then the change has a smooth share, too, which falls by ρ = 1/30 an order, the most that was seen, where
 /// the singular one falls by r (docs/theory/elements.md): of the last change the share s = r (q − ρ) / (q (r − ρ)) is
 /// singular, and the error is s r / (1 − r) + (1 − s) ρ / (1 − ρ), at least as the other edges have it. Before q is
-/// known, r is at least `untold`.
+/// known, r is at least that of `untold`. On a mesh with rows at its edges the smooth share leads at first: r is that
+/// of the other edges there, and ρ is 1/10, for its elements are no longer large beside an edge.
 double error_over_change(const std::vector<RefinementStep>& steps, std::optional<double> RefinementStep::*change,
                          const Exponent& exponent, const Untold& untold) {
-  constexpr double smooth = 1.0 / 30.0;
+  const double smooth = untold.has_rows ? 1.0 / 10.0 : 1.0 / 30.0;
   const RefinementStep& last = steps.back();
   const double r = error_ratio(last.order, exponent.least), others = error_ratio(last.order, exponent.otherwise);
   const auto of_ratio = [](double ratio) { return ratio / (1.0 - ratio); };
   const std::optional<double> told = ratio_of_changes(steps, change, untold.usual_order);
-  if (!told) return of_ratio(std::max(r, untold.ratio));
+  if (!told) return of_ratio(std::max(untold.has_rows ? others : r, untold.ratio));
   const double q = *told;
   if (q > r) return of_ratio(std::max(r, std::min(q, largest_ratio)));
   const double share = q > smooth ? r * (q - smooth) / (q * (r - smooth)) : 0.0;

@@ -51,6 +51,22 @@ TEST(ErrorOfOrders, ChangesThatDoNotFallAreNineTimesTheLastOne) {
   EXPECT_NEAR(errors_of_last_two(steps, regular, {0.5, 4}).second.frequency, 0.18, 1e-12);
 }
 
+/// With rows at its edges an error of a singular share, which falls by the law of the edge, and a smooth one, which
+/// falls by ten, is met exactly, unless it is below the last change, which is taken at least.
+TEST(ErrorOfOrders, WithRowsAtTheEdgesOfTwoSharesIsTheirSum) {
+  const double law = std::pow(4.5 / 5.5, 4.0 * 0.544);
+  for (const double share : {0.5, 0.97, 0.99}) {
+    const auto e = [&](int p) {
+      return share * std::pow(law, p) + (1.0 - share) * std::pow(0.1, p) * std::pow(10 * law, 5);
+    };
+    const auto error = errors_of_last_two(steps_of(e, 5), reentrant, {0.5, 4, true}).second.frequency;
+    EXPECT_NEAR(error, std::max(e(5), e(4) - e(5)), 1e-9 * e(5)) << share;
+    const auto before = errors_of_last_two(steps_of(e, 4), reentrant, {0.5, 4, true}).second.frequency;
+    EXPECT_NEAR(before, e(3) - e(4), 1e-9 * e(4)) << "one change tells no law";
+    EXPECT_LT(error, errors_of_last_two(steps_of(e, 5), reentrant, {0.5, 4}).second.frequency);
+  }
+}
+
 /// One change tells nothing of the ratio, so that an error that falls by the ratio that is taken is met exactly.
 TEST(ErrorOfOrders, BeforeTwoChangesAreKnownTheRatioIsTheOneThatIsGiven) {
   const auto e = [](int p) { return std::pow(2.0 / 3.0, p); };
