@@ -154,14 +154,21 @@ FirstMesh straight_mesh(const mesh::TriangleSurface& surface, const ClosedPartOp
 FirstMesh with_rows_if_few(const mesh::TriangleSurface& surface, const ClosedPartOptions& options, FirstMesh first) {
   const bool has_layers = std::ranges::any_of(options.supports, ends_within_a_face);
   if (has_layers || first.fit.mesher != "TetGen" || !has_reentrant_edge(surface)) return first;
-  mesh::EdgeRows rows = mesh::with_rows_at_edges(first.mesh, sharp_rad);
+  mesh::EdgeRows rows;
+  try {
+    rows = mesh::with_rows_at_edges(first.mesh, sharp_rad);
+  } catch (const core::NumericalError&) {  // the mesh's own boundary does not tell the walls
+    return first;
+  }
   const auto nodes = [](const mesh::TetMesh& mesh, int order) {
     return static_cast<double>(mesh::lagrange_node_count(mesh, order));
   };
   const double count = nodes(rows.mesh, options.first_order + 1);
-  const bool is_small = options.largest_dofs == 0 || 3.0 * count <= static_cast<double>(options.largest_dofs);
+  const bool is_small = (options.largest_dofs == 0 || 3.0 * count <= static_cast<double>(options.largest_dofs)) &&
+                        count <= most_for_rows * nodes(first.mesh, options.last_order);
   const bool is_complete = rows.divided > 0 && 10 * rows.whole <= rows.divided;
-  first.has_rows = is_complete && is_small && count <= most_for_rows * nodes(first.mesh, options.last_order);
+  first.has_rows =
+      is_small && is_complete && mesh::smallest_shape(rows.mesh) >= mesh::SurfaceMeshOptions{}.smallest_shape;
   if (first.has_rows) first.mesh = std::move(rows.mesh);
   return first;
 }
