@@ -1,9 +1,9 @@
 #pragma once
 // The headers of mesh/ that other programs may include.
-// Internal: beneath_curves, border_graph, cell_shape, cell_split, curve_order, edge_layers, edge_uses, facet_repair,
-// hole_filling, joined_sets, labelled_checks, layer_rows, matched_walls, mesh_findings, midside_order, nearest_point,
-// orientation, pieces, placed_triangle, planar_mesh, plane_overlay, polyline, separate_bodies, smooth_patches,
-// solid_union, surface_finding, sweep, tet_jacobian, triangle_tree.
+// Internal: beneath_curves, border_graph, cell_shape, cell_split, curve_order, edge_division, edge_layers, edge_rows,
+// edge_uses, facet_repair, hole_filling, joined_sets, labelled_checks, layer_rows, matched_walls, mesh_findings,
+// midside_order, nearest_point, orientation, pieces, placed_triangle, planar_mesh, plane_overlay, polyline,
+// separate_bodies, smooth_patches, solid_union, surface_finding, sweep, tet_jacobian, triangle_tree.
 
 #include "core/eigen_alignment.hpp"
 #include "mesh/box.hpp"
