@@ -120,14 +120,16 @@ bool swings_in_short_waves(const std::vector<Eigen::Vector3d>& held, const mesh:
 }
 
 /// The time of the solutions that a tolerance usually takes, from the first order on: two of them in any case, the
-/// others within the part's budget. `held`: held_vertices().
+/// others within the part's budget. `held`: held_vertices(). `has_rows`: with rows of narrow elements at its edges, of
+/// six parts one took a third order to 0.01.
 double refinement_s(const PartInput& source, const std::vector<Eigen::Vector3d>& held, const mesh::TetMesh& mesh,
-                    int first_order, int last_order) {
-  constexpr Refinement of_short_waves{1.0, 1.0, 0.2};
+                    bool has_rows, int first_order, int last_order) {
+  constexpr Refinement of_short_waves{1.0, 1.0, 0.2}, of_rows{0.2, 0.0, 0.0};
   const setup::Part& part = *source.part;
   const bool short_waves = part.mesh.tolerance < 0.05 && swings_in_short_waves(held, mesh);
-  const Refinement usual =
-      short_waves ? of_short_waves : usual_refinement(part.mesh.tolerance, !source.reduction.interface.empty());
+  const Refinement by_tolerance = usual_refinement(part.mesh.tolerance, !source.reduction.interface.empty());
+  const bool rows_do = has_rows && part.mesh.tolerance >= 0.01;
+  const Refinement usual = rows_do ? of_rows : short_waves ? of_short_waves : by_tolerance;
   double first = 0.0, further = 0.0;
   for (int order = first_order; order <= last_order; ++order) {
     const int beyond = order - first_order;
@@ -183,8 +185,8 @@ std::optional<setup::PartSize> forecast(const PartInput& source, const std::shar
   result.order = std::max(to_tolerance ? 2 : 1, part.mesh.order.value_or(std::max(2, usual)));
   result.dofs = dofs(mesh, result.order);
   const int last = part.mesh.order ? result.order : fem::ClosedPartOptions{}.last_order;
-  result.seconds =
-      to_tolerance ? refinement_s(source, held, mesh, result.order - 1, last) : solve_s(mesh, result.order);
+  result.seconds = to_tolerance ? refinement_s(source, held, mesh, first && first->has_rows, result.order - 1, last)
+                                : solve_s(mesh, result.order);
   const bool is_solved_higher = is_solved_one_order_higher(part, result.order);
   if (is_solved_higher) result.seconds += solve_s(mesh, result.order + 1);
   // Modes are added to such a reduction until its error is met: on the pocketed rib that takes as long as the mesh.
