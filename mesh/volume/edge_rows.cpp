@@ -11,6 +11,7 @@
 
 #include "mesh/solid/edge_division.hpp"
 #include "mesh/surface/edge_uses.hpp"
+#include "mesh/surface/surface_distance.hpp"
 #include "mesh/surface/wall_thickness.hpp"
 
 namespace thinwall::mesh {
@@ -26,12 +27,6 @@ struct SharpEdge {
   double wall = 0.0;  ///< thickness of the thinner wall beside it, m
   bool reentrant = false;
 };
-
-TriangleSurface boundary_of(const TetMesh& mesh) {
-  TriangleSurface result{mesh.vertices, {}};
-  for (const BoundaryTriangle& face : boundary(mesh)) result.triangles.push_back(face.vertices);
-  return result;
-}
 
 std::vector<SharpEdge> sharp_edges(const TriangleSurface& surface, double sharp_angle_rad) {
   const std::vector<double> wall = wall_thickness(surface, TriangleTree(surface));
@@ -71,8 +66,8 @@ struct RowEnd {
   bool reentrant = false;
 };
 
-/// Where an edge that leads along `way` (m) from some sharp edges leaves the widest of their rows; none if it leads
-/// away from none of them.
+/// The place at which an edge that leads along `way` (m) from some sharp edges leaves the widest of their rows; none if
+/// it leads away from none of them.
 std::optional<RowEnd> row_end_beside(const std::vector<SharpEdge>& sharp, const Eigen::Vector3d& way) {
   std::optional<RowEnd> result;
   for (const SharpEdge& edge : sharp) {
@@ -96,7 +91,7 @@ std::optional<double> division(const std::optional<RowEnd>& from_start, const st
 }  // namespace
 
 EdgeRows with_rows_at_edges(const TetMesh& mesh, double sharp_angle_rad) {
-  const auto sharp_at = edges_at_vertices(mesh, sharp_edges(boundary_of(mesh), sharp_angle_rad));
+  const auto sharp_at = edges_at_vertices(mesh, sharp_edges(boundary_surface(mesh), sharp_angle_rad));
   std::map<VertexEdge, Eigen::Vector3d> points;
   std::set<VertexEdge> whole;
   for (const auto& tet : mesh.tets) {

@@ -317,8 +317,8 @@ double next_look(const HelicalSearch& search, double depth_m, bool crossed, cons
   return near > 0.0 && near < 0.5 * next ? near : next;
 }
 
-/// Where the cut is stable again above a depth at which it is not, as far as the steps of the search tell; none if
-/// nowhere up to `to_m`.
+/// The first depth above a given one, in the steps of the search up to `to_m`, at which the cut is not clearly
+/// unstable, so that a stable range may lie there; none if it is unstable at all of them.
 std::optional<double> stable_again_m(const HelicalSearch& search, double depth_m, double to_m) {
   while (depth_m < to_m) {
     depth_m = std::min(search.next_depth(depth_m), to_m);

@@ -24,9 +24,9 @@ namespace thinwall::study {
 /// second level below 0.05; a `first` mesh with rows at its edges takes two orders and 0.2 of a third from 0.01 on. A
 /// mesh of a file is solved once more, of one order more, for its error. A reduction to a tolerance at points takes as
 /// long again. The memory is that of the highest order that the first mesh may come to (fem::solution_bytes()), of the
-/// solution before it, and 150 MB with 480 bytes a row for the program and its vectors; it is not known of more than 50
-/// 000 elements. Throws what coarsest_mesh() throws, and InputError for a support or clamp that holds no face. `first`:
-/// what first_mesh() has made of the same input, or empty: it is made.
+/// solution before it, and 150 MB with 480 bytes a row for the program and its vectors; it is not known of more than
+/// fifty thousand elements. Throws what coarsest_mesh() throws, and InputError for a support or clamp that holds no
+/// face. `first`: what first_mesh() has made of the same input, or empty: it is made.
 [[nodiscard]] std::optional<setup::PartSize> forecast(const PartInput& source,
                                                       const std::shared_ptr<const fem::FirstMesh>& first = {});
 

@@ -6,28 +6,15 @@
 #include <complex>
 #include <limits>
 #include <numbers>
-#include <utility>
 
 #include "core/dense_eigenvalues.hpp"
+#include "tests/linalg/worst_distance.hpp"
 
 namespace thinwall::linalg::complex_eigenvalues_test {
 namespace {
 
 using Eigen::Index;
 using std::complex;
-
-/// The largest distance of an expected value from the nearest found one that no other has taken.
-double worst_distance(const Eigen::VectorXcd& expected, Eigen::VectorXcd found) {
-  EXPECT_EQ(expected.size(), found.size());
-  double worst = 0.0;
-  for (Index i = 0; i < expected.size(); ++i) {
-    Index nearest = 0;
-    const Index left = found.size() - i;
-    worst = std::max(worst, (found.head(left).array() - expected(i)).abs().minCoeff(&nearest));
-    std::swap(found(nearest), found(left - 1));
-  }
-  return worst;
-}
 
 TEST(ComplexEigenvalues, OfACirculantMatrixAreTheTransformOfItsRow) {
   constexpr Index n = 12;
@@ -40,7 +27,7 @@ TEST(ComplexEigenvalues, OfACirculantMatrixAreTheTransformOfItsRow) {
       expected(i) += row(j) * std::polar(1.0, 2.0 * std::numbers::pi * static_cast<double>(i * j) / n);
     }
   }
-  EXPECT_LT(worst_distance(expected, complex_eigenvalues(A).value()), 1e-13 * A.norm());
+  EXPECT_LT(testing::worst_distance(expected, complex_eigenvalues(A).value()), 1e-13 * A.norm());
 }
 
 TEST(ComplexEigenvalues, AgreeWithComplexSchur) {
@@ -51,7 +38,7 @@ TEST(ComplexEigenvalues, AgreeWithComplexSchur) {
       for (Index j = 0; j < n; ++j) A(i, j) *= std::exp(-0.2 * static_cast<double>(i + std::abs(i - j)));
     }
     const Eigen::VectorXcd expected = Eigen::ComplexSchur<Eigen::MatrixXcd>(A, false).matrixT().diagonal();
-    EXPECT_LT(worst_distance(expected, complex_eigenvalues(A).value()), 1e-12 * A.norm()) << n;
+    EXPECT_LT(testing::worst_distance(expected, complex_eigenvalues(A).value()), 1e-12 * A.norm()) << n;
   }
 }
 

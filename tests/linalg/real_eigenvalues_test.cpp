@@ -7,28 +7,15 @@
 #include <complex>
 #include <limits>
 #include <numbers>
-#include <utility>
 
 #include "core/dense_eigenvalues.hpp"
+#include "tests/linalg/worst_distance.hpp"
 
 namespace thinwall::linalg::real_eigenvalues_test {
 namespace {
 
 using Eigen::Index;
 using std::complex;
-
-/// The largest distance of an expected value from the nearest found one that no other has taken.
-double worst_distance(const Eigen::VectorXcd& expected, Eigen::VectorXcd found) {
-  EXPECT_EQ(expected.size(), found.size());
-  double worst = 0.0;
-  for (Index i = 0; i < expected.size(); ++i) {
-    Index nearest = 0;
-    const Index left = found.size() - i;
-    worst = std::max(worst, (found.head(left).array() - expected(i)).abs().minCoeff(&nearest));
-    std::swap(found(nearest), found(left - 1));
-  }
-  return worst;
-}
 
 TEST(RealEigenvalues, OfAShiftAreTheRootsOfOne) {
   for (const Index n : {1, 2, 7, 60, 300}) {
@@ -40,7 +27,7 @@ TEST(RealEigenvalues, OfAShiftAreTheRootsOfOne) {
     }
     const auto found = real_eigenvalues(A);
     ASSERT_TRUE(found) << n;
-    EXPECT_LT(worst_distance(expected, *found), 1e-12) << n;
+    EXPECT_LT(testing::worst_distance(expected, *found), 1e-12) << n;
   }
 }
 
@@ -49,7 +36,7 @@ TEST(RealEigenvalues, AreThoseOfEigenForRandomMatrices) {
     const Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, n);
     const auto found = real_eigenvalues(A);
     ASSERT_TRUE(found) << n;
-    EXPECT_LT(worst_distance(A.eigenvalues(), *found), 1e-10 * static_cast<double>(n)) << n;
+    EXPECT_LT(testing::worst_distance(A.eigenvalues(), *found), 1e-10 * static_cast<double>(n)) << n;
   }
 }
 
@@ -59,7 +46,7 @@ TEST(RealEigenvalues, DoNotDependOnUnits) {
   for (Index i = 0; i < 40; ++i) units(i) = std::pow(10.0, static_cast<double>(i % 13));
   const auto found = real_eigenvalues(units.asDiagonal() * A * units.cwiseInverse().asDiagonal());
   ASSERT_TRUE(found);
-  EXPECT_LT(worst_distance(A.eigenvalues(), *found), 1e-10);
+  EXPECT_LT(testing::worst_distance(A.eigenvalues(), *found), 1e-10);
 }
 
 TEST(RealEigenvalues, AreNoneOfAMatrixThatIsNotFinite) {
