@@ -137,6 +137,11 @@ PartitionName=main Nodes=ALL Default=YES MaxTime=INFINITE State=UP
         time.sleep(2.0)  # the controller compares whole seconds: the node must begin after it answered last
         self.start_node("-b")
         wait_for("the loss of the node", lambda: "down" in self.run("sinfo", "-h", "-o", "%t").stdout)
+        # With -b a daemon says at each of its reports that the machine has booted just now, and a second report would
+        # be a second loss of the node: from here on another daemon reports without it.
+        self.node.kill()
+        self.node.wait()
+        self.start_node()
         self.run("scontrol", "update", f"nodename={self.host}", "state=resume")
         return len(shards)
 
@@ -229,6 +234,9 @@ def main():
             case = shutil.copytree(case, folder / "case", ignore=shutil.ignore_patterns("expected.toml"))
             test_forty_points(slurm, thinwall, case, folder)
             test_killed_twice(slurm, thinwall, case, folder)
+        except SystemExit:
+            print(slurm.run("sinfo", "-R").stdout, slurm.run("squeue", "-r").stdout)
+            raise
         finally:
             slurm.stop()
 
