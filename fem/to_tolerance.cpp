@@ -35,6 +35,13 @@ struct Solution {
   Responses responses;
 };
 
+/// Frees most of a solution's memory; its factor and its matrices can be made again.
+void give_up_matrices(Solution& s) {
+  s.factored.reset();
+  linalg::SparseMatrix().swap(s.model.K);
+  linalg::SparseMatrix().swap(s.model.M);
+}
+
 /// The materials of a part on a mesh.
 Materials materials_of(const SolidPart& part, const mesh::TetMesh& mesh) {
   return part.materials ? part.materials(mesh) : Materials{{part.material}, {}};
@@ -139,7 +146,7 @@ struct Refinement {
   mesh::TetMesh mesh;  // of the last solution
   Estimate estimate;
   std::optional<Found> now;       // the last solution
-  std::optional<Found> better{};  // one of the level before, while its error is smaller
+  std::optional<Found> better{};  // the best one of the levels before
   int usual_order = 0;            // the higher one of the first two orders that were asked for
 };
 
@@ -224,10 +231,7 @@ void make_room(Refinement& r, const mesh::TetMesh& mesh, int order) {
   const double needed = margin * solution_bytes(mesh, order), left = core::memory_left_bytes();
   if (left > 0.0 && needed > left && needed <= left + factor + matrices) {
     last.factored.reset();
-    if (needed > core::memory_left_bytes()) {
-      linalg::SparseMatrix().swap(last.model.K);
-      linalg::SparseMatrix().swap(last.model.M);
-    }
+    if (needed > core::memory_left_bytes()) give_up_matrices(last);
   }
   core::require_memory(needed, "a solution of " + std::to_string(3 * mesh::lagrange_node_count(mesh, order)) +
                                    " degrees of freedom at order " + std::to_string(order));
@@ -318,7 +322,7 @@ void refine(Refinement& r) {
   bool more_levels = true;
   while (r.now->errors.worst() > options.tolerance) {
     core::check_interrupt();
-    if (r.better && r.now->errors.worst() <= r.better->errors.worst()) r.better.reset();
+    if (r.better && r.now->errors.worst() <= r.better->errors.worst()) give_up_matrices(r.better->solution);
     const int levels_left = options.levels - 1 - r.now->level, order = r.now->solution.model.nodes.order;
     if (more_levels && levels_left > 0 && (order == options.last_order || !orders_may_do(r))) {
       const double reach = error_after(levels_left, r.now->errors, r.estimate.steps);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "fem/modes.hpp"
@@ -100,6 +101,40 @@ TEST(RefineToTolerance, EstimatesFromTheLowerOrderAsTwoFullSolutionsDo) {
     const double change = ((lower - higher).array() / higher.array()).abs().maxCoeff();
     EXPECT_NEAR(step.frequency_change.value_or(0.0), change, 0.01 * options.tolerance) << "held: " << held;
   }
+}
+
+// The first two orders of a finer mesh promise more than the next one keeps.
+TEST(RefineToTolerance, ReturnsTheSolutionOfTheLeastErrorOfAllLevels) {
+  SolidPart part;
+  part.mesh = [](int level) {
+    return mesh::kuhn_box(box.size, level == 0 ? std::array{2, 1, 1} : std::array{6, 4, 1});
+  };
+  part.material = steel;
+  part.supports = {{"x_min", mesh::face_of(box, "x_min"), {0, 1, 2}}};
+  const Eigen::Index coarse = static_cast<Eigen::Index>(part.mesh(0).tets.size());
+  part.shape_error = [coarse](const Model& model) {
+    const bool is_coarse = static_cast<Eigen::Index>(model.mesh.tets.size()) == coarse;
+    return !is_coarse && model.nodes.order == 4 ? 0.5 : 0.0;
+  };
+  ToleranceOptions options;
+  options.tolerance = 1e-6;
+  options.modes.count = 3;
+  options.first_order = 2;
+  options.last_order = 4;
+  options.levels = 2;
+  const Refined refined = refine_to_tolerance(part, options);
+  const auto& steps = refined.estimate.steps;
+  ASSERT_EQ(steps.size(), 5U);
+  EXPECT_EQ(steps.back().level, 1);
+  EXPECT_EQ(steps.back().order, 4);
+  EXPECT_LT(steps[3].frequency_change.value_or(1.0), steps[1].frequency_change.value_or(0.0))
+      << "the finer mesh seems better at order 3";
+  EXPECT_EQ(refined.level, 0);
+  EXPECT_LT(refined.estimate.frequency, 0.5);
+  EXPECT_EQ(refined.model.K.rows(), steps[1].dofs);
+  EXPECT_EQ(refined.model.M.rows(), steps[1].dofs);
+  EXPECT_EQ(refined.factored.factor.rows(), steps[1].dofs);
+  EXPECT_EQ(refined.modes.frequency_hz.size(), 3);
 }
 
 }  // namespace
