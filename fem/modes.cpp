@@ -12,8 +12,6 @@
 #include "core/messages.hpp"
 #include "fem/error/error_of_orders.hpp"
 #include "fem/free_motions.hpp"
-#include "linalg/inverse_iteration.hpp"
-#include "linalg/rayleigh_quotients.hpp"
 #include "linalg/substructures/substructured_eigenpairs.hpp"
 
 namespace thinwall::fem {
@@ -30,11 +28,12 @@ double lambda_of(double hz) {
   return omega * omega;
 }
 
-linalg::Eigenpairs by_block_lanczos(const Model& model, const Factored& factored, const ModeOptions& options) {
+linalg::Eigenpairs by_block_lanczos(const Model& model, const Factored& factored, const ModeOptions& options,
+                                    const Eigen::MatrixXd& start = {}) {
   if (options.up_to_hz)
     return linalg::eigenpairs_up_to(model.K, model.M, inverse_of(factored), lambda_of(*options.up_to_hz));
   return linalg::lowest_eigenpairs(model.K, model.M, inverse_of(factored), options.count + model.rigid_motions,
-                                   options.inverse_residual);
+                                   options.inverse_residual, start);
 }
 
 /// Tells the number of substructures and the estimated error.
@@ -71,9 +70,10 @@ linalg::Eigenpairs from_substructures(const Model& model, const Factored& factor
   return by_block_lanczos(model, factored, options);
 }
 
-linalg::Eigenpairs solve(const Model& model, const Factored& factored, const ModeOptions& options) {
+linalg::Eigenpairs solve(const Model& model, const Factored& factored, const ModeOptions& options,
+                         const Eigen::MatrixXd& start) {
   return options.substructures > 0 ? from_substructures(model, factored, options)
-                                   : by_block_lanczos(model, factored, options);
+                                   : by_block_lanczos(model, factored, options, start);
 }
 
 /// The round-off of eigenvalues, ε tr K / tr M, rad²/s². The entries of K are rounded at ε of those of the stiffest
@@ -124,8 +124,8 @@ Modes described(const Model& model, linalg::Eigenpairs&& pairs) {
 
 }  // namespace
 
-Modes modes(const Model& model, const Factored& factored, const ModeOptions& options) {
-  linalg::Eigenpairs pairs = solve(model, factored, options);
+Modes modes(const Model& model, const Factored& factored, const ModeOptions& options, const Eigen::MatrixXd& start) {
+  linalg::Eigenpairs pairs = solve(model, factored, options, start);
   if (pairs.status != linalg::EigenStatus::converged) {
     throw core::NumericalError("the part's modes did not converge (" + std::to_string(pairs.lambda.size()) +
                                " found): ask for fewer modes, or mesh more evenly");
@@ -134,19 +134,6 @@ Modes modes(const Model& model, const Factored& factored, const ModeOptions& opt
     throw core::InputError("no elastic mode lies below the frequency that was asked for; raise modes.up_to");
   }
   return described(model, std::move(pairs));
-}
-
-std::optional<Modes> modes_near(const Model& model, const Factored& factored, linalg::Eigenpairs start,
-                                double inverse_residual) {
-  constexpr int most_steps = 4;
-  const linalg::ShiftedInverse inverse = inverse_of(factored);
-  for (int step = 0; step < most_steps; ++step) {
-    if (!linalg::inverse_iteration(model.M, inverse, start)) return std::nullopt;
-    if (start.inverse_residual.maxCoeff() > inverse_residual) continue;
-    start.lambda = linalg::rayleigh_quotients(model.K, model.M, start.Phi);
-    return described(model, std::move(start));
-  }
-  return std::nullopt;
 }
 
 }  // namespace thinwall::fem

@@ -17,7 +17,7 @@ struct ModeOptions {
   /// converge, with a warning, and where more than half of all modes are wanted.
   int substructures = 0;
   std::optional<double> up_to_hz{};  ///< if given, all modes below this frequency instead
-  double inverse_residual = 3e-10;   ///< ≤ 1e-6, for `count` modes: error of a shape; its square is that of λ
+  double inverse_residual = 3e-10;   ///< ≤ 0.01, for `count` modes: error of a shape; its square is that of λ
 };
 
 /// Modes in ascending order, the rigid-body modes first (as many as Model::rigid_motions).
@@ -35,17 +35,11 @@ struct [[nodiscard]] Modes {
 /// The natural modes of a model, the rigid-body modes first. Throws NumericalError if the iteration does not converge,
 /// if a free part does not show exactly its rigid-body modes (|λ| < 1e-6 of the first elastic eigenvalue or of the size
 /// of K's round-off, 10 ε tr K / tr M), or if the first elastic eigenvalue, of a held part too, is no larger than that
-/// round-off. Throws InputError if no elastic mode lies below up_to_hz. What substructures
-/// were taken is told. Cost: that of linalg::lowest_eigenpairs() or linalg::substructured_eigenpairs().
-Modes modes(const Model& model, const Factored& factored, const ModeOptions& options);
-
-/// The modes near given ones, which must lie near the lowest: inverse iteration (linalg::inverse_iteration) until the
-/// residuals of all are below `inverse_residual` before the last step. The relative error of a frequency that is not
-/// close to one left out is then less than the square of that bound, and positive in a held part. Two steps suffice
-/// from a solution of another order, while block_lanczos() takes nine with as many columns. Empty if the start is too
-/// far away: the columns depend on each other, or four steps were not enough. A mode missing between the given ones
-/// goes unnoticed. start: λ, rad²/s², and Φ on the free rows of the model. Throws as modes() does.
-std::optional<Modes> modes_near(const Model& model, const Factored& factored, linalg::Eigenpairs start,
-                                double inverse_residual);
+/// round-off. Throws InputError if no elastic mode lies below up_to_hz. `start` are shapes near
+/// those of `count` modes on the free rows, such as interpolated() ones of another order, if there are such: with them
+/// a residual of 1e-3 takes two or three solves of as many columns in place of twelve solves of eight. What
+/// substructures were taken is told. Cost: that of linalg::lowest_eigenpairs() or linalg::substructured_eigenpairs().
+Modes modes(const Model& model, const Factored& factored, const ModeOptions& options,
+            const Eigen::MatrixXd& start = {});
 
 }  // namespace thinwall::fem

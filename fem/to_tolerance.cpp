@@ -26,6 +26,9 @@ namespace {
 
 constexpr const char* next_too_large = "the next model would be too large";
 
+/// The inverse residual from which on modes are found sooner from those of another order than from random vectors.
+constexpr double least_from_start = 1e-4;
+
 /// One solution, with the quantities that are compared between orders. Where memory is short, the factor and then K and
 /// M are given up while a larger model is solved.
 struct Solution {
@@ -33,6 +36,7 @@ struct Solution {
   std::optional<Factored> factored;
   Modes modes;
   Responses responses;
+  bool for_estimate = false;  // the modes are less accurate than they are asked for
 };
 
 /// Frees most of a solution's memory; its factor and its matrices can be made again.
@@ -57,28 +61,35 @@ Model model_on(const SolidPart& part, const mesh::TetMesh& mesh, int order) {
 Solution prepared(const SolidPart& part, const mesh::TetMesh& mesh, int order, const ToleranceOptions& options) {
   Model model = model_on(part, mesh, order);
   Factored factored = factorise(model, options.memory_limit_bytes);
-  return {std::move(model), std::move(factored), {}, {}};
+  return {std::move(model), std::move(factored), {}, {}, false};
 }
 
-/// The solution of the given order on a mesh, with its modes.
-Solution solve(const SolidPart& part, const mesh::TetMesh& mesh, int order, const ToleranceOptions& options) {
-  Solution s = prepared(part, mesh, order, options);
-  s.modes = modes(s.model, *s.factored, options.modes);
+/// The solution with its modes, which are found from those of another order on its mesh if these are given: few digits
+/// come sooner from them.
+Solution solved(Solution s, const ModeOptions& wanted, const Solution* near, const ToleranceOptions& options) {
+  const bool has_start = near != nullptr && !wanted.up_to_hz && wanted.inverse_residual >= least_from_start;
+  const Eigen::MatrixXd start =
+      has_start ? interpolated(near->model, near->modes.pairs.Phi, s.model) : Eigen::MatrixXd();
+  s.modes = modes(s.model, *s.factored, wanted, start);
+  s.for_estimate = wanted.inverse_residual > options.modes.inverse_residual;
   s.responses = responses_of(s.model, *s.factored, s.modes, options.points);
   return s;
 }
 
 /// The solution of the next lower order, made from that of a higher one as accurately as an estimate needs it:
 /// frequencies to a hundredth of the tolerance. Their error is the square of the inverse residual, hence the bound 0.1
-/// √tolerance.
+/// √tolerance. It has as many modes as far as it can, for at a low order fewer lie below a frequency.
 Solution solve_below(const SolidPart& part, const Solution& above, const ToleranceOptions& options) {
   Solution s = prepared(part, above.model.mesh, above.model.nodes.order - 1, options);
-  linalg::Eigenpairs start = above.modes.pairs;
-  start.Phi = interpolated(above.model, start.Phi, s.model);
-  auto near = modes_near(s.model, *s.factored, std::move(start), 0.1 * std::sqrt(options.tolerance));
-  s.modes = near ? std::move(*near) : modes(s.model, *s.factored, options.modes);
-  s.responses = responses_of(s.model, *s.factored, s.modes, options.points);
-  return s;
+  ModeOptions wanted = options.modes;
+  if (wanted.up_to_hz) {
+    const Eigen::Index all = std::min(above.modes.frequency_hz.size(), s.model.K.rows() - 1);
+    wanted.count = static_cast<int>(all) - s.model.rigid_motions;
+    wanted.up_to_hz.reset();
+  }
+  wanted.substructures = 0;
+  wanted.inverse_residual = std::max(wanted.inverse_residual, std::min(0.01, 0.1 * std::sqrt(options.tolerance)));
+  return solved(std::move(s), wanted, &above, options);
 }
 
 /// The largest relative change of the elastic frequencies that both solutions have.
@@ -167,6 +178,7 @@ Refined finished(Refinement&& r) {
     if (s.model.K.size() == 0) s.model = model_on(r.part, s.model.mesh, s.model.nodes.order);
     s.factored = factorise(s.model, r.options.memory_limit_bytes);
   }
+  if (s.for_estimate) s.modes = modes(s.model, *s.factored, r.options.modes);
   return {std::move(s.model), std::move(*s.factored), std::move(s.modes), std::move(estimate), best.level};
 }
 
@@ -204,10 +216,10 @@ std::pair<Errors, Errors> compared(Refinement& r, int level, const Solution& bel
 }
 
 /// Solves the first two orders on a mesh, the higher one first: the modes of the lower one, which only the estimate
-/// needs, follow from it by inverse iteration. If the lower one meets the tolerance, its modes are computed in full.
+/// needs as a rule, follow from it.
 void begin_level(Refinement& r, int level, mesh::TetMesh mesh) {
   const ToleranceOptions& options = r.options;
-  Solution above = solve(r.part, mesh, options.first_order + 1, options);
+  Solution above = solved(prepared(r.part, mesh, options.first_order + 1, options), options.modes, nullptr, options);
   if (level == 0 && options.points_hold && above.factored->sigma != 0.0)
     require_motions_determined(above.model, above.modes, above.responses.amplitudes);
   Solution below = solve_below(r.part, above, options);
@@ -217,7 +229,6 @@ void begin_level(Refinement& r, int level, mesh::TetMesh mesh) {
   r.mesh = std::move(mesh);
   r.now = Found{std::move(above), of_above, level};
   if (of_below.worst() > options.tolerance) return;
-  below.modes = modes(below.model, *below.factored, options.modes);
   r.now = Found{std::move(below), of_below, level};
 }
 
@@ -241,7 +252,7 @@ void make_room(Refinement& r, const mesh::TetMesh& mesh, int order) {
 void raise_order(Refinement& r) {
   const int order = r.now->solution.model.nodes.order + 1;
   make_room(r, r.mesh, order);
-  Solution above = solve(r.part, r.mesh, order, r.options);
+  Solution above = solved(prepared(r.part, r.mesh, order, r.options), r.options.modes, &r.now->solution, r.options);
   const auto [of_below, of_above] = compared(r, r.now->level, r.now->solution, above);
   if (of_below.worst() <= r.options.tolerance) {
     r.now->errors = of_below;
@@ -374,6 +385,10 @@ void require_fit(const mesh::TetMesh& mesh, const ToleranceOptions& options) {
                          " degrees of freedom at order " + std::to_string(order) + ", more than the bound of " +
                          std::to_string(options.largest_dofs) + "; check part.unit, give part.mesh.element_size, " +
                          (order > 2 ? "lower part.mesh.order, " : "") + "or simplify the part");
+}
+
+double enough_for_frequencies(double tolerance) {
+  return 0.01 * std::sqrt(tolerance);
 }
 
 Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& asked) {

@@ -104,24 +104,28 @@ struct [[nodiscard]] Refined {
 /// options.largest_dofs.
 void require_fit(const mesh::TetMesh& mesh, const ToleranceOptions& options);
 
-/// Solves a part to a tolerance. The order is raised on a mesh, beginning with first_order, whose modes are made from
-/// those of the next order (modes_near()) to a hundredth of the tolerance, and computed anew if they are returned. If
-/// the estimate is still above the tolerance at last_order, or too far above it for the orders left to help, the next
-/// level is taken (Babuska & Guo 1992: convergence is exponential with elements graded to edges and rising order). It
-/// is not if it would be in vain: the changes of one order on two successive levels have the ratio q, at most 1, and an
-/// error e is at best e q²ⁿ after the n levels left, for convergence may become faster; more than twice the tolerance
-/// ends the refinement. Orders are judged likewise beside re-entrant edges, by the ratio of two successive changes on
-/// one mesh; those up to first_order + 1 are taken in any case where they were lowered, and no further
-/// ones for an error that is mostly that of the shape and above the tolerance. A solution after the first two
-/// that fails, for memory, for time_budget_s or for its mesh, ends the
-/// refinement, too; the result is the solution of the least estimated error. Receptances between the points are
-/// compared entry by entry, relative to the largest √(B_ii B_jj), which is held to the tolerance, and relative to each
-/// entry's own, where B_ii is the sum of the magnitudes of all modes' contributions to the direct receptance; at zero
-/// (or at the shift of a free part) and midway between resonances more than a quarter apart, for nearer to a resonance
-/// the error of its frequency would be magnified. Throws InputError for options out of range, for largest_dofs below
-/// the size of the first two orders on the first level, for points that do not determine the rigid motions although
-/// they must, what the first two solutions throw, and Interrupted. Cost: that of the last step, and about a third more
-/// for those before.
+/// The inverse residual of modes with which frequencies that need keep a tolerance are right to 1e-4 of it: 0.01
+/// √tolerance, for their error is its square.
+[[nodiscard]] double enough_for_frequencies(double tolerance);
+
+/// Solves a part to a tolerance. The order is raised on a mesh, beginning with first_order. The modes of first_order
+/// are found from those of the next order, with frequencies to a hundredth of the tolerance, and anew if they are
+/// returned; those of a raised order from the order before, where options.modes asks for few digits
+/// (enough_for_frequencies()). If the estimate is still above the tolerance at last_order, or too far above it for the
+/// orders left to help, the next level is taken (Babuska & Guo 1992: convergence is exponential with elements graded to
+/// edges and rising order). It is not if it would be in vain: the changes of one order on two successive levels have
+/// the ratio q, at most 1, and an error e is at best e q²ⁿ after the n levels left, for convergence may become faster;
+/// more than twice the tolerance ends the refinement. Orders are judged likewise beside re-entrant edges, by the ratio
+/// of two successive changes on one mesh; those up to first_order + 1 are taken in any case where they were lowered,
+/// and no further ones for an error that is mostly that of the shape and above the tolerance. A solution after the
+/// first two that fails, for memory, for time_budget_s or for its mesh, ends the refinement, too; the result is the
+/// solution of the least estimated error. Receptances between the points are compared entry by entry, relative to the
+/// largest √(B_ii B_jj), which is held to the tolerance, and relative to each entry's own, where B_ii is the sum of the
+/// magnitudes of all modes' contributions to the direct receptance; at zero (or at the shift of a free part) and midway
+/// between resonances more than a quarter apart, for nearer to a resonance the error of its frequency would be
+/// magnified. Throws InputError for options out of range, for largest_dofs below the size of the first two orders on
+/// the first level, for points that do not determine the rigid motions although they must, what the first two solutions
+/// throw, and Interrupted. Cost: that of the last step, and about a third more for those before.
 Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& options);
 
 /// The estimated error of a solution on a mesh that is given, by the one of the next order: d / (1 − r), with r by the

@@ -150,6 +150,17 @@ struct Krylov {
     MatrixXd unused;
     return outside(inverse.apply(symmetric_product(M, random_columns(count))), unused);
   }
+
+  /// A block that begins with directions near the wanted ones. Random directions in the range of A fill it up to a
+  /// multiple of eight, which a solve takes at once: they bring in what the given ones may lack.
+  Block block_from(const MatrixXd& start) {
+    constexpr Index multiple = 8, fewest = 4;
+    const Index whole = std::min(M.rows(), (start.cols() + fewest + multiple - 1) / multiple * multiple);
+    const Index given = std::min(start.cols(), std::max<Index>(0, whole - fewest));
+    MatrixXd W(M.rows(), whole), unused;
+    W << start.leftCols(given), inverse.apply(symmetric_product(M, random_columns(whole - given)));
+    return outside(std::move(W), unused);
+  }
 };
 
 /// The eigenpairs of the projected operator T, which approximate those of the operator.
@@ -196,12 +207,16 @@ Eigenpairs block_lanczos(const SparseMatrix& M, const ShiftedInverse& inverse, c
   const Index n = M.rows();
   const Index width = block_width(options, n);
   Krylov krylov{.M = M, .inverse = inverse};
-  krylov.V.resize(n, std::min(n, options.lambda_max > 0.0 ? 8 * width : 2 * options.count + 7 * width));
+  // Columns that are not reached are never touched, so that room for many costs nothing.
+  krylov.V.resize(n, std::min(n, options.lambda_max > 0.0 ? 8 * width : 2 * options.count + 12 * width));
+  core::want_large_pages(krylov.V.data(), sizeof(double) * static_cast<std::size_t>(krylov.V.size()));
   Eigenpairs pairs;
   pairs.status = EigenStatus::not_converged;
   // Fewer columns than wanted pairs cannot hold them, so that the first check waits for `count` columns.
   Index next_check = options.lambda_max > 0.0 ? 1 : options.count;
-  Block block = krylov.random_block(width);
+  Block block = options.start.cols() > 0 ? krylov.block_from(options.start) : krylov.random_block(width);
+  // The Ritz pairs of given directions may have converged before the random ones have shown what these lack.
+  if (options.start.cols() > 0) next_check = std::max(next_check, block.Q.cols() + 1);
   while (pairs.status != EigenStatus::converged && block.Q.cols() > 0) {
     block = krylov.step(block);
     const MatrixXd B = block.B;
@@ -224,7 +239,8 @@ Eigenpairs block_lanczos(const SparseMatrix& M, const ShiftedInverse& inverse, c
   if (pairs.lambda.size() > 0) (void)inverse_iteration(M, inverse, pairs);
   // If the shift coincides with an eigenvalue, round-off along its vector swamps all other pairs; the residual
   // estimated from T does not show it, the measured one does.
-  if (pairs.inverse_residual.size() > 0 && !(pairs.inverse_residual.maxCoeff() < 1e-6)) {
+  const double most = std::max(1e-6, 2.0 * options.tolerance);
+  if (pairs.inverse_residual.size() > 0 && !(pairs.inverse_residual.maxCoeff() < most)) {
     pairs.status = EigenStatus::not_converged;
   }
   return pairs;

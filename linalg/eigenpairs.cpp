@@ -90,9 +90,10 @@ void require_count(int count, Eigen::Index rows) {
 }  // namespace
 
 Eigenpairs lowest_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse, int count,
-                             double inverse_residual) {
+                             double inverse_residual, const Eigen::MatrixXd& start) {
   require_count(count, K.rows());
-  return with_quotients(K, M, block_lanczos(M, inverse, {.count = count, .tolerance = inverse_residual}));
+  return with_quotients(K, M,
+                        block_lanczos(M, inverse, {.count = count, .tolerance = inverse_residual, .start = start}));
 }
 
 Eigenpairs eigenpairs_up_to(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse,

@@ -19,7 +19,7 @@ struct ShiftedInverse {
 /// Outcome of an eigen-solution.
 enum class EigenStatus {
   converged,
-  not_converged,  ///< fewer pairs than wanted have converged and are listed, or a measured residual exceeds 1e-6
+  not_converged,  ///< fewer pairs than wanted have converged and are listed, or a measured residual exceeds the bound
 };
 
 /// Eigenpairs in ascending order of λ; shapes are M-normalised, with the entry of largest magnitude positive.
@@ -32,10 +32,11 @@ struct [[nodiscard]] Eigenpairs {
 
 /// The `count` eigenpairs next above σ, by block_lanczos(). K, M: n × n; M is positive definite on the range of the
 /// inverse, σ lies below the wanted eigenvalues, 1 ≤ count < n. Every pair reaches the bound `inverse_residual` (≤
-/// 1e-6); the relative error of λ is of the order of its square. Throws InputError for another count. Cost: about eight
-/// solves of eight right-hand sides for ten pairs.
+/// 0.01); the relative error of λ is of the order of its square. `start` are directions near those of the pairs, n ×
+/// any, if there are such (BlockLanczosOptions). Throws InputError for another count. Cost: about eight solves of eight
+/// right-hand sides for ten pairs.
 Eigenpairs lowest_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse, int count,
-                             double inverse_residual = 3e-10);
+                             double inverse_residual = 3e-10, const Eigen::MatrixXd& start = {});
 
 /// All eigenpairs with λ ≤ lambda_max, by block_lanczos(), which continues until it has found one pair beyond. Shapes
 /// and conditions are those of lowest_eigenpairs(). Throws InputError unless lambda_max > 0.

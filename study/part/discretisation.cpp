@@ -137,6 +137,9 @@ fem::ClosedPartOptions closed_part_options(const PartInput& source) {
   fem::ClosedPartOptions options;
   options.tolerance = wanted.tolerance;
   options.modes = setup::mode_options(source);
+  // Frequencies need few digits of the shapes; reductions and the check of modes need more.
+  if (source.reduction.interface.empty() && !source.modes.verify)
+    options.modes.inverse_residual = fem::enough_for_frequencies(wanted.tolerance);
   options.supports = setup::supports_of(source);
   options.points = watched_points(source);
   options.points_hold = !source.reduction.interface.empty();
