@@ -232,14 +232,16 @@ void begin_level(Refinement& r, int level, mesh::TetMesh mesh) {
   r.now = Found{std::move(below), of_below, level};
 }
 
-/// Gives up the factor of the last solution if the next one does not fit beside it, and its matrices if they are in the
-/// way, too. Throws NumericalError if it does not fit without them.
-void make_room(Refinement& r, const mesh::TetMesh& mesh, int order) {
+/// Gives up the factor of the last solution if those of some orders on a mesh, which are held at once, do not fit
+/// beside it, and its matrices if they are in the way, too. Throws NumericalError if they do not fit without them.
+void make_room(Refinement& r, const mesh::TetMesh& mesh, int lowest_order, int order) {
   constexpr double margin = 1.05;  // the forecast is right to 3 %, and freed memory does not fit every new block
   Solution& last = r.now->solution;
   const double factor = last.factored ? last.factored->factor.statistics().bytes_held : 0.0;
   const double matrices = bytes_of(last.model.K) + bytes_of(last.model.M);
-  const double needed = margin * solution_bytes(mesh, order), left = core::memory_left_bytes();
+  double needed = 0.0;
+  for (int held = lowest_order; held <= order; ++held) needed += margin * solution_bytes(mesh, held);
+  const double left = core::memory_left_bytes();
   if (left > 0.0 && needed > left && needed <= left + factor + matrices) {
     last.factored.reset();
     if (needed > core::memory_left_bytes()) give_up_matrices(last);
@@ -251,7 +253,7 @@ void make_room(Refinement& r, const mesh::TetMesh& mesh, int order) {
 /// Solves the next order on the mesh. The order before stays the result if it meets the tolerance.
 void raise_order(Refinement& r) {
   const int order = r.now->solution.model.nodes.order + 1;
-  make_room(r, r.mesh, order);
+  make_room(r, r.mesh, order, order);
   Solution above = solved(prepared(r.part, r.mesh, order, r.options), r.options.modes, &r.now->solution, r.options);
   const auto [of_below, of_above] = compared(r, r.now->level, r.now->solution, above);
   if (of_below.worst() <= r.options.tolerance) {
@@ -308,7 +310,7 @@ bool takes_finer_level(Refinement& r) {
     mesh::TetMesh finer = r.part.mesh(level);
     fitting = fits(finer, order, r.options);
     if (!fitting) return;
-    make_room(r, finer, order);
+    make_room(r, finer, order - 1, order);
     begin_level(r, level, std::move(finer));
   };
   if (!succeeds(r, step)) return false;

@@ -65,44 +65,70 @@ TEST(SolutionBytes, OfAGraphHaveARowForEachDegreeOfFreedom) {
   }
 }
 
-/// A finer mesh that does not fit beside the factor and the matrices of the solution before is tried without them (here
-/// with half of their bytes), and when it fails they are made again.
-TEST(SolutionBytes, OfThePreviousSolutionAreGivenUpForANextOneThatNeedsThem) {
-  const auto mesh_of = [](int level) { return mesh::kuhn_box({0.3, 0.2, 0.05}, {6 + 2 * level, 4 + 2 * level, 2}); };
-  const Model coarse = supported_model(mesh_of(0), 4, steel, {});
-  const Factored factored = factorise(coarse);
-  const double matrices = bytes_of(coarse.K) + bytes_of(coarse.M);
-  const double factor = factored.factor.statistics().bytes_held;
+/// A block at order 4 whose refinement goes on to a finer mesh, which fails as soon as its elements are asked for.
+struct RoomForAFinerMesh {
+  Model coarse = supported_model(mesh_of(0), 4, steel, {});
+  double factor = factorise(coarse).factor.statistics().bytes_held;
+  double matrices = bytes_of(coarse.K) + bytes_of(coarse.M);
   bool finer_was_begun = false;
-  SolidPart part;
-  part.mesh = [&](int level) {
-    if (level > 0) {
-      const double left = solution_bytes(mesh_of(1), 4) - 0.5 * factor - 0.5 * matrices;
-      core::set_memory_limit(1e12);
-      core::set_memory_limit(1e12 - core::memory_left_bytes() + left);
-    }
-    return mesh_of(level);
-  };
-  part.materials = [&](const mesh::TetMesh& mesh) -> Materials {
-    if (mesh.tets.size() > coarse.mesh.tets.size()) {
-      finer_was_begun = true;
-      throw core::NumericalError("the finer one fails");
-    }
-    return {{steel}, {}};
-  };
-  ToleranceOptions options;
-  options.modes = {.count = 2, .up_to_hz = {}};
-  options.first_order = 3;
-  options.last_order = 4;
-  options.levels = 2;
-  options.tolerance = 1e-6;
-  const Refined refined = refine_to_tolerance(part, options);
-  core::set_memory_limit(0.0);
-  EXPECT_TRUE(finer_was_begun) << refined.estimate.held_back_by;
+
+  static mesh::TetMesh mesh_of(int level) {
+    return mesh::kuhn_box({0.3, 0.2, 0.05}, {6 + 2 * level, 4 + 2 * level, 2});
+  }
+
+  /// Refines with so many bytes left when the finer mesh is made.
+  Refined refined_with(double left) {
+    SolidPart part;
+    part.mesh = [left](int level) {
+      if (level > 0) {
+        core::set_memory_limit(1e12);
+        core::set_memory_limit(1e12 - core::memory_left_bytes() + left);
+      }
+      return mesh_of(level);
+    };
+    part.materials = [this](const mesh::TetMesh& mesh) -> Materials {
+      if (mesh.tets.size() > coarse.mesh.tets.size()) {
+        finer_was_begun = true;
+        throw core::NumericalError("the finer one fails");
+      }
+      return {{steel}, {}};
+    };
+    ToleranceOptions options;
+    options.modes = {.count = 2, .up_to_hz = {}};
+    options.first_order = 3;
+    options.last_order = 4;
+    options.levels = 2;
+    options.tolerance = 1e-6;
+    Refined refined = refine_to_tolerance(part, options);
+    core::set_memory_limit(0.0);
+    return refined;
+  }
+};
+
+/// A finer mesh whose first two orders do not fit beside the factor and the matrices of the solution before is tried
+/// without them (here with half of their bytes), and when it fails they are made again.
+TEST(SolutionBytes, OfThePreviousSolutionAreGivenUpForANextOneThatNeedsThem) {
+  RoomForAFinerMesh room;
+  const mesh::TetMesh finer = RoomForAFinerMesh::mesh_of(1);
+  const Refined refined =
+      room.refined_with(solution_bytes(finer, 3) + solution_bytes(finer, 4) - 0.5 * (room.factor + room.matrices));
+  EXPECT_TRUE(room.finer_was_begun) << refined.estimate.held_back_by;
   EXPECT_NE(refined.estimate.held_back_by.find("the finer one fails"), std::string::npos);
-  EXPECT_EQ((refined.model.K - coarse.K).norm(), 0.0);
-  EXPECT_EQ((refined.model.M - coarse.M).norm(), 0.0);
-  EXPECT_EQ(refined.factored.factor.rows(), coarse.K.rows());
+  EXPECT_EQ((refined.model.K - room.coarse.K).norm(), 0.0);
+  EXPECT_EQ((refined.model.M - room.coarse.M).norm(), 0.0);
+  EXPECT_EQ(refined.factored.factor.rows(), room.coarse.K.rows());
+}
+
+/// Both orders of a finer mesh are held at once, while they are compared.
+TEST(SolutionBytes, OfBothOrdersOfAFinerMeshMustBeLeft) {
+  RoomForAFinerMesh room;
+  const mesh::TetMesh finer = RoomForAFinerMesh::mesh_of(1);
+  const double higher = solution_bytes(finer, 4);
+  ASSERT_GT(solution_bytes(finer, 3), 0.2 * higher);
+  const Refined refined = room.refined_with(1.1 * higher - room.factor - room.matrices);
+  EXPECT_FALSE(room.finer_was_begun);
+  EXPECT_NE(refined.estimate.held_back_by.find("memory"), std::string::npos) << refined.estimate.held_back_by;
+  EXPECT_EQ(refined.model.K.rows(), room.coarse.K.rows());
 }
 
 }  // namespace
