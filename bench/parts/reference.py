@@ -48,7 +48,7 @@ def extrapolated(coarse, fine):
     return {"frequencies_hz": limits, "error": error}
 
 
-def write_job(step, path, tets, material, modes):
+def write_job(step, path, tets, material, modes, trials=TRIALS):
     """The job of CalculiX on about so many tetrahedra. Returns the volume in m³ and the number of tetrahedra."""
     import gmsh
 
@@ -59,7 +59,7 @@ def write_job(step, path, tets, material, modes):
         gmsh.model.occ.importShapes(str(step))
         gmsh.model.occ.synchronize()
         volume_mm3 = sum(gmsh.model.occ.getMass(3, tag) for _, tag in gmsh.model.getEntities(3))
-        found = mesh_of(gmsh, volume_mm3, tets)
+        found = mesh_of(gmsh, volume_mm3, tets, trials)
         gmsh.model.mesh.setOrder(2)
         path.write_text(job_text(gmsh, material, modes))
         return 1e-9 * volume_mm3, found
@@ -67,10 +67,10 @@ def write_job(step, path, tets, material, modes):
         gmsh.finalize()
 
 
-def mesh_of(gmsh, volume_mm3, tets):
+def mesh_of(gmsh, volume_mm3, tets, trials):
     """Meshes at sizes that come closer to the number of tetrahedra; the last one stays."""
     size = (8.0 * volume_mm3 / tets) ** (1.0 / 3.0)
-    for _ in range(TRIALS):
+    for _ in range(trials):
         gmsh.model.mesh.clear()
         gmsh.option.setNumber("Mesh.MeshSizeMax", size)
         gmsh.option.setNumber("Mesh.MeshSizeMin", 0.2 * size)

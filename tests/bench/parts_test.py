@@ -2,6 +2,8 @@
 """bench/parts: surfaces and their variants keep what they must, and outcomes are told apart. Takes neither Gmsh nor the
 program; exit code 77 where numpy is missing."""
 
+import contextlib
+import io
 import pathlib
 import re
 import struct
@@ -19,7 +21,7 @@ except ImportError:
     print("numpy is not installed")
     sys.exit(77)
 
-from parts import outcomes, page, reference, surfaces, sweep  # noqa: E402
+from parts import equal_error, outcomes, page, reference, surfaces, sweep  # noqa: E402
 
 CORNERS = np.array([[x, y, z] for z in (0.0, 3.0) for y in (0.0, 20.0) for x in (0.0, 40.0)])
 SIDES = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]])
@@ -164,6 +166,32 @@ class Outcomes(unittest.TestCase):
         found = reference.extrapolated(coarse, fine)
         self.assertAlmostEqual(found["frequencies_hz"][0], 100.0)
         self.assertAlmostEqual(found["error"], 0.004)
+
+
+class EqualError(unittest.TestCase):
+    def test_seconds_are_a_power_of_the_error_between_two_meshes(self):
+        power_law = [(3.0 * error**-1.5, error) for error in (0.1, 0.03, 0.004)]
+        seconds, reached = equal_error.seconds_at(power_law, 0.01)
+        self.assertTrue(reached)
+        self.assertAlmostEqual(seconds, 3000.0, places=6)
+
+    def test_the_first_mesh_that_is_exact_enough_counts_whole(self):
+        self.assertEqual(equal_error.seconds_at([(2.0, 0.005), (9.0, 0.001)], 0.01), (2.0, True))
+
+    def test_an_error_that_rises_again_does_not_count(self):
+        seconds, _ = equal_error.seconds_at([(1.0, 0.02), (2.0, 0.04), (8.0, 0.01)], 0.01)
+        self.assertAlmostEqual(seconds, 8.0)
+
+    def test_without_a_mesh_that_is_exact_enough_the_last_one_is_a_lower_bound(self):
+        self.assertEqual(equal_error.seconds_at([(1.0, 0.1), (5.0, 0.05)], 0.01), (5.0, False))
+
+    def test_medians_of_thin_parts_and_of_all_are_held_against_their_bars(self):
+        row = {"thinness": 0.01, "own_s": 1.0, "peers_s": 12.0}
+        thick = {"thinness": 0.2, "own_s": 1.0, "peers_s": 1.5}
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.assertTrue(equal_error.show_median([row, thick, {"failure": "none"}], "thin"))
+            self.assertTrue(equal_error.show_median([row, thick], "all"))
+            self.assertFalse(equal_error.show_median([thick], "all"))
 
 
 class Sweep(unittest.TestCase):
