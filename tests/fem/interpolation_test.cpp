@@ -75,7 +75,7 @@ TEST(ModesFromAnotherOrder, AreAllThereWhereTheStartLacksOne) {
   for (Eigen::Index missing = 0; missing < 9; ++missing) {
     Eigen::MatrixXd others(whole.rows(), 9);
     others << whole.leftCols(missing), whole.rightCols(9 - missing);
-    // What the others hold of the missing shape is taken out, too, so that only the random directions can bring it in.
+    // The missing shape is removed from the others, too, so that only the random directions can bring it in.
     const Eigen::VectorXd shape = exact.pairs.Phi.col(missing);
     others -= shape * ((fine.M * shape).transpose() * others).eval();
     const ModeOptions options{.count = 9, .up_to_hz = {}, .inverse_residual = 1e-2};
