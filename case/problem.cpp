@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <sstream>
+#include <tuple>
 #include <utility>
+
+#include "core/message_line.hpp"
 
 namespace thinwall::cases {
 
@@ -18,9 +21,10 @@ std::string problem_lines(const std::string& file, const std::vector<Problem>& p
   return further.empty() ? text : text + "\n" + file + ": " + further;
 }
 
+/// Options, then the file from its head on. What has no place is last: it may follow from what could not be read.
 std::vector<Problem> in_order(std::vector<Problem> problems) {
   std::ranges::stable_sort(problems, [](const Problem& a, const Problem& b) {
-    return std::pair(a.line, a.column) < std::pair(b.line, b.column);
+    return std::tuple(a.line == 0, a.line, a.column) < std::tuple(b.line == 0, b.line, b.column);
   });
   return problems;
 }
@@ -69,12 +73,6 @@ std::size_t token_length(const std::vector<std::string>& line, std::size_t first
   return at - first;
 }
 
-/// A control character would move the terminal's cursor, or worse.
-std::string printable(const std::string& character) {
-  const auto code = static_cast<unsigned char>(character.front());
-  return (code < 0x20 && code != '\t') || code == 0x7f ? "?" : character;
-}
-
 }  // namespace
 
 std::string problem_line(const std::string& file, const Problem& problem) {
@@ -86,7 +84,7 @@ std::string excerpt(const CaseText& source, const Problem& problem) {
   const std::size_t option = problem.line < 0 ? static_cast<std::size_t>(-problem.line) : 0;
   if (problem.line == 0 || option > source.overrides.size()) return "";
   std::vector<std::string> line =
-      characters(option > 0 ? source.overrides[option - 1] : line_of(source.text, problem.line));
+      characters(core::printable_text(option > 0 ? source.overrides[option - 1] : line_of(source.text, problem.line)));
   const std::size_t first = problem.column > 0 ? static_cast<std::size_t>(problem.column - 1) : 0;
   if (line.size() > longest_excerpt) line.resize(longest_excerpt);
   if (first >= line.size()) return "";
@@ -95,7 +93,7 @@ std::string excerpt(const CaseText& source, const Problem& problem) {
   const std::string margin = option > 0 ? "  --set" : std::to_string(problem.line);
   const std::size_t width = std::max<std::size_t>(margin.size(), 7);
   std::string text = std::string(width - margin.size(), ' ') + margin + " | ";
-  for (const auto& character : line) text += printable(character);
+  for (const auto& character : line) text += character;
   text += "\n" + std::string(width, ' ') + " | ";
   for (std::size_t i = 0; i < first; ++i) text += line[i] == "\t" ? "\t" : " ";
   return text + "^" + std::string(length - 1, '~') + "\n";

@@ -39,8 +39,8 @@ inline constexpr std::size_t shown_problems = 20;
 /// "and 80 more; the first 20 are shown", or "" where all are shown.
 [[nodiscard]] std::string further_problems(std::size_t count);
 
-/// Every problem of a case, in the order of the file; what() has one line a problem, "case.toml:12:5: part.length = …",
-/// of the first shown_problems, and the number of the others.
+/// Every problem of a case, in the order of the file, what has no place last; what() has one line a problem,
+/// "case.toml:12:5: part.length = …", of the first shown_problems, and the number of the others.
 struct CaseError : core::InputError {
   CaseError(CaseText where, std::vector<Problem> found);
   CaseText source;

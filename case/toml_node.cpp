@@ -29,6 +29,16 @@ std::string read_text(const toml::node& node) {
   return text;
 }
 
+/// A text that names something. An empty one names nothing; it would be taken for a key that is not there. Only where
+/// it is the default is it what a key may say.
+std::string read_name(const toml::node& node, const Key& key) {
+  std::string text = read_text(node);
+  if (text.empty() && key.fallback != "\"\"")
+    throw InputError(std::string(key.type == Type::file ? "names no file" : "is an empty text") +
+                     (key.required ? "; write what is meant" : "; write what is meant, or remove the key"));
+  return text;
+}
+
 /// The quantity that a text states; a range is told as what it is.
 double read_quantity_text(const std::string& text, const Key& key) {
   try {
@@ -67,9 +77,10 @@ double read_integer(const toml::node& node, const Key& key) {
 }
 
 std::string read_choice(const toml::node& node, const Key& key) {
-  std::string text = read_text(node);
   const auto allowed = choices(key);
-  if (allowed.empty() || std::ranges::find(allowed, text) != allowed.end()) return text;
+  if (allowed.empty()) return read_name(node, key);
+  std::string text = read_text(node);
+  if (std::ranges::find(allowed, text) != allowed.end()) return text;
   std::string list;
   for (const auto& choice : allowed) list += (list.empty() ? "\"" : ", \"") + choice + "\"";
   throw InputError("\"" + text + "\" is none of " + list + core::did_you_mean(text, allowed));
@@ -163,9 +174,9 @@ std::vector<Eigen::Vector3d> read_directions(const toml::node& node) {
 }
 
 /// The text of a quantity whose dimension is known only later; a bare number as its exact text.
-std::string read_amount(const toml::node& node) {
+std::string read_amount(const toml::node& node, const Key& key) {
   if (node.is_integer() || node.is_floating_point()) return core::number_text(*node.value<double>());
-  return read_text(node);
+  return read_name(node, key);
 }
 
 /// The node of a value of a key. A quantity is its exact text.
@@ -205,14 +216,18 @@ std::string_view node_type(const toml::node& node) {
 Value read_value(const toml::node& node, const Key& key) {
   // Where there is a default, a list without an entry would leave out what nobody means to be without: directions that
   // a support holds or a contact joins, stiffnesses.
-  if (const auto* list = node.as_array(); list != nullptr && list->empty() && !key.fallback.empty())
+  const auto* list = node.as_array();
+  if (list != nullptr && list->empty() && !key.fallback.empty())
     throw InputError("is a list without an entry; name what is meant, or leave the key out for its default, " +
                      std::string(key.fallback));
+  if (list != nullptr && list->empty() && key.type == Type::quantities)
+    throw InputError(std::string("is a list without an entry; write its numbers") +
+                     (key.required ? "" : ", or remove the key"));
   switch (key.type) {
     case Type::text:
     case Type::file:
     case Type::name:
-      return read_text(node);
+      return read_name(node, key);
     case Type::choice:
       return read_choice(node, key);
     case Type::names:
@@ -239,7 +254,7 @@ Value read_value(const toml::node& node, const Key& key) {
     case Type::directions:
       return read_directions(node);
     case Type::amount:
-      return read_amount(node);
+      return read_amount(node, key);
   }
   return {};
 }

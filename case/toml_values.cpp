@@ -278,9 +278,11 @@ toml::table parse_document(const std::string& text, const std::string& name) {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
     const auto place = error.source().begin;
-    throw CaseError({name, text}, {{static_cast<int>(place.line), static_cast<int>(place.column),
-                                    "not TOML: " + std::string(error.description()) +
-                                        "; quantities with units go in quotes, \"6 mm\""}});
+    const bool is_text = error.description().find("utf-8") == std::string_view::npos;
+    throw CaseError({name, text},
+                    {{static_cast<int>(place.line), static_cast<int>(place.column),
+                      "not TOML: " + std::string(error.description()) +
+                          (is_text ? "; quantities with units go in quotes, \"6 mm\"" : "; save the file as UTF-8")}});
   }
 }
 

@@ -1,6 +1,6 @@
 #include "core/message_line.hpp"
 
-#include <algorithm>
+#include <utility>
 
 namespace thinwall::core {
 
@@ -18,10 +18,30 @@ bool is_control(char byte) {
   return (code < 0x20 && byte != '\t') || code == 0x7f;
 }
 
+/// How many bytes the character that begins at `at` has by its first one; 1 where it is cut short or begins with a byte
+/// that no character begins with.
+std::size_t character_length(const std::string& text, std::size_t at) {
+  const auto first = static_cast<unsigned char>(text[at]);
+  const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : first >= 0xC2 ? 2 : 1;
+  if (first >= 0xF5 || at + length > text.size()) return 1;
+  for (std::size_t i = 1; i < length; ++i)
+    if (!continues_character(text[at + i])) return 1;
+  return length;
+}
+
 }  // namespace
 
+std::string printable_text(std::string text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = character_length(text, at);
+    if (length == 1 && (is_control(text[at]) || static_cast<unsigned char>(text[at]) >= 0x80)) text[at] = '?';
+    at += length;
+  }
+  return text;
+}
+
 std::string message_line(std::string text) {
-  std::ranges::replace_if(text, is_control, '?');
+  text = printable_text(std::move(text));
   if (text.size() <= longest) return text;
   std::size_t head = longest_head, tail = text.size() - longest_tail;
   while (head > 0 && continues_character(text[head])) --head;

@@ -5,9 +5,12 @@
 
 namespace thinwall::core {
 
-/// The message in one line. Control characters stand in it as "?", since they would end the line, move the cursor or
-/// worse; tabs stay. Of a message of more than 600 bytes, which repeats a value that no case has, the head and the tail
-/// stay, where the place and the remedy are, with "…" between them.
+/// The text as a terminal can show it: "?" stands for each control character but the tab, since they would end the
+/// line, move the cursor or worse, and for each byte that is no UTF-8.
+[[nodiscard]] std::string printable_text(std::string text);
+
+/// The message in one line of printable text. Of a message of more than 600 bytes, which repeats a value that no case
+/// has, the head and the tail stay, where the place and the remedy are, with "…" between them.
 [[nodiscard]] std::string message_line(std::string text);
 
 }  // namespace thinwall::core

@@ -10,6 +10,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "io/json_file.hpp"
 #include "report/summary/summary_schema.hpp"
 
@@ -207,7 +208,8 @@ void require_results(const std::filesystem::path& folder) {
 
 Comparison compare_results(const std::filesystem::path& left, const std::filesystem::path& right, double tolerance) {
   if (!(tolerance >= 0.0) || std::isinf(tolerance))
-    throw core::UsageError("the tolerance is a relative one, a number from 0 on, as 1e-6");
+    throw core::UsageError("--tolerance: " + core::number_text(tolerance) +
+                           " is no relative tolerance; write a number from 0 on, as 1e-6");
   Comparer comparer{tolerance, {}};
   comparer.object({""}, read_summary(left), read_summary(right));
   const auto ours = csv_files(left), theirs = csv_files(right);

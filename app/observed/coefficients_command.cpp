@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <numbers>
 #include <optional>
@@ -151,6 +152,8 @@ std::string edge_line_of(const char* name, const learning::FittedCoefficient& c)
 }
 
 void require_cutting(const learning::FittedCoefficient& K_t) {
+  if (!std::isfinite(K_t.value))
+    throw core::InputError("K_t is no finite number; look for a force or a feed in another unit");
   if (K_t.value > 0.0) return;
   throw core::InputError(
       fmt::format("K_t is {:.6g} N/mm^2, must be above 0; the forces seem to act on the part (--on "

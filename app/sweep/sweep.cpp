@@ -239,6 +239,8 @@ void tell_of_missing(const std::vector<std::string>& folders, const std::vector<
 
 ExitCode run_sweep(const SweepRequest& request, const RunCase& run_case, std::ostream& out) {
   using Clock = std::chrono::steady_clock;
+  if (request.shards > 0 && !request.slurm && !request.parallel)
+    throw core::UsageError("--shards is for --slurm and --parallel; one shard is computed by --shard I/N");
   const Shard shard = shard_of(request.shard);
   (void)stage_display(request);
   SweepTable table = empty_table(sweep_axes(request.keys));
@@ -252,8 +254,6 @@ ExitCode run_sweep(const SweepRequest& request, const RunCase& run_case, std::os
   remove_abandoned_tables(folder);
   if (std::error_code ignored; request.fresh) fs::remove_all(shared_parts(folder), ignored);
   write_plan(folder, plan);
-  if (request.shards > 0 && !request.slurm && !request.parallel)
-    throw core::UsageError("--shards is for --slurm and --parallel; one shard is computed by --shard I/N");
   if (request.slurm || request.parallel) {
     write_jobs(request, sweep_jobs(request, table, folder, name), out);
     return ExitCode::done;

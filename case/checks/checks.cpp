@@ -46,7 +46,8 @@ void check_something_to_do(const Case& source, Findings& findings) {
                   "measured FRFs and [lobes] or [simulation]");
 }
 
-/// A folder holds no data, and a pipe is waited for without end.
+/// A folder holds no data, and a pipe is waited for without end. Where the name of a posture is put in there are
+/// several.
 void check_named_files(const Case& source, Findings& findings) {
   for (const CaseValue& value : source.values) {
     const auto* name = std::get_if<std::string>(&value.value);
@@ -55,7 +56,13 @@ void check_named_files(const Case& source, Findings& findings) {
     if (key == nullptr || key->type != Type::file) continue;
     std::error_code ignored;
     const auto status = std::filesystem::status(source.folder / *name, ignored);
-    if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) continue;
+    if (std::filesystem::is_regular_file(status) || name->find('{') != std::string::npos ||
+        findings.reported(value.key))
+      continue;
+    if (!std::filesystem::exists(status)) {
+      findings.report(value.key, "there is no file \"" + (source.folder / *name).string() + "\"");
+      continue;
+    }
     findings.report(value.key, "\"" + *name + "\" is " +
                                    (std::filesystem::is_directory(status) ? "a folder; name a file in it"
                                                                           : "a pipe or a device; name a plain file"));
@@ -117,11 +124,7 @@ void check_measured(const std::string& key, const setup::MeasuredFrf& frf, Findi
     findings.report(key + ".from", "the first line must lie below the last (" + key + ".to)");
   require_direction(key + ".response", frf.response, findings);
   require_direction(key + ".force", frf.force, findings);
-  std::error_code ignored;
-  if (frf.file.empty() && findings.given(key + ".file")) findings.report(key + ".file", "names no file");
-  if (!frf.file.empty() && !std::filesystem::exists(frf.file, ignored)) {
-    findings.report(key + ".file", "there is no file \"" + frf.file.string() + "\"");
-  } else if (frf.averages && frf.content) {
+  if (frf.averages && frf.content) {
     if (const std::string fault = setup::fault_of_coherence(frf); !fault.empty())
       findings.report(key + ".averages", fault);
   }
@@ -298,7 +301,6 @@ std::vector<Problem> check_case(const Case& source) {
   Findings findings{source.values, {}};
   for (const auto& [key, text] : faults_of_alternatives(case_schema(), source.values)) findings.report(key, text);
   check_something_to_do(source, findings);
-  check_named_files(source, findings);
   check_part(source, findings);
   check_ranges(source, findings);
   check_damping(source, findings);
@@ -319,6 +321,7 @@ std::vector<Problem> check_case(const Case& source) {
   if (source.machine) check_machine(source, findings);
   if (source.path) check_path(source, findings);
   if (source.simulation) check_simulation(source, findings);
+  check_named_files(source, findings);
   return std::move(findings.problems);
 }
 

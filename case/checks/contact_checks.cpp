@@ -70,11 +70,7 @@ std::vector<double> numbers_of(const Case& source, const setup::SupportContact& 
 void try_contact(const Case& source, const std::string& key, const setup::SupportContact& contact, Findings& findings) {
   const auto* tabled = std::get_if<setup::TabledContact>(&contact.model);
   std::error_code ignored;
-  if (tabled != nullptr && !std::filesystem::exists(tabled->table, ignored)) {
-    if (!tabled->table.empty()) findings.report(key + ".table", "there is no file \"" + tabled->table.string() + "\"");
-    return;
-  }
-  if (tabled != nullptr && !tabled->rows) return;  // a fault of the file was reported
+  if (tabled != nullptr && (!tabled->rows || !std::filesystem::exists(tabled->table, ignored))) return;  // was reported
   std::vector<double> numbers =
       std::visit(core::overloaded{[](const setup::SpringContact&) { return std::vector<double>(); },
                                   [](const setup::TabledContact&) { return std::vector<double>(); },

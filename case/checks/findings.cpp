@@ -31,6 +31,10 @@ bool Findings::unreadable(const std::string& key) const {
   return text != nullptr && text->empty();
 }
 
+bool Findings::reported(const std::string& key) const {
+  return std::ranges::any_of(problems, [&](const Problem& problem) { return problem.text.starts_with(key + ": "); });
+}
+
 void Findings::require_known(const std::string& key, const std::string& name, const std::vector<std::string>& known,
                              const std::string& what) {
   if (name.empty() || std::ranges::find(known, name) != known.end()) return;

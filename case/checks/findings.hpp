@@ -26,6 +26,9 @@ struct Findings {
   /// True if the key was given a text that stands for nothing it takes, which is reported already.
   [[nodiscard]] bool unreadable(const std::string& key) const;
 
+  /// True if something was found about this key.
+  [[nodiscard]] bool reported(const std::string& key) const;
+
   /// Reports unless `name` is among `known`, naming the nearest; an empty name was reported before.
   void require_known(const std::string& key, const std::string& name, const std::vector<std::string>& known,
                      const std::string& what);

@@ -83,13 +83,10 @@ bool has_unreadable(const std::string& entry, const setup::ObservedCuts& cuts, c
 }
 
 bool check_entry(const std::string& entry, const setup::ObservedCuts& cuts, Findings& findings) {
-  std::error_code ignored;
   if (!cuts.file.empty()) {
     for (const char* key : judged_keys)
       if (findings.given(entry + "." + key))
         findings.report(entry + "." + key, "is in the file already; remove it, or `file`");
-    if (!std::filesystem::exists(cuts.file, ignored))
-      findings.report(entry + ".file", "there is no file \"" + cuts.file.string() + "\"");
     return true;
   }
   bool complete = true;

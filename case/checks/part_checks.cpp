@@ -66,10 +66,7 @@ bool on_face(const setup::Part& part, const std::string& face, const Eigen::Vect
 }
 
 void check_matrices(const io::MatrixFiles& files, Findings& findings) {
-  if (findings.given("part.matrices.stiffness") && files.stiffness.empty()) {
-    findings.report("part.matrices.stiffness", "names no file; take a .mtx, .sti, .mat or another file of matrices");
-    return;
-  }
+  if (files.stiffness.empty()) return;  // which was reported
   try {
     (void)dynamics::unit_system(files.length_unit, files.mass_unit);
   } catch (const core::InputError& error) {
@@ -78,10 +75,7 @@ void check_matrices(const io::MatrixFiles& files, Findings& findings) {
 }
 
 void check_part_file(const setup::PartFile& file, Findings& findings) {
-  if (findings.given("part.file") && file.path.empty()) {
-    findings.report("part.file", "names no file; take a .stl, .step or another surface, or a mesh");
-    return;
-  }
+  if (file.path.empty()) return;  // which was reported
   if (!findings.written("part.shape") && !file.path.empty() && !setup::shape_of_file(file.path)) {
     findings.report(
         "part.file",

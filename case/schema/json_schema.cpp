@@ -17,9 +17,13 @@ Json any_of(const Json& first, const Json& second) {
   return {{"anyOf", Json::array({first, second})}};
 }
 
+/// One of the words that a key takes, or any text; an empty one only where it is the default.
 Json text_schema(const Key& key) {
   const auto allowed = choices(key);
-  return allowed.empty() ? Json{{"type", "string"}} : Json{{"enum", allowed}};
+  if (!allowed.empty()) return {{"enum", allowed}};
+  Json text = {{"type", "string"}};
+  if (key.fallback != "\"\"") text["minLength"] = 1;
+  return text;
 }
 
 Json number_schema(const Key& key, const char* type) {
@@ -57,7 +61,7 @@ Json value_schema(const Key& key) {
     case Type::text:
     case Type::file:
     case Type::name:
-      return {{"type", "string"}};
+      return text_schema(key);
     case Type::choice:
       return text_schema(key);
     case Type::names:
@@ -70,7 +74,7 @@ Json value_schema(const Key& key) {
     case Type::quantity:
       return quantity_schema(key);
     case Type::quantities:
-      return any_of(quantity_schema(key), list_schema(quantity_schema(key)));
+      return any_of(quantity_schema(key), list_schema(quantity_schema(key), 1));
     case Type::vector:
       return list_schema(quantity_schema(key), 3, 3);
     case Type::polygon:
@@ -82,7 +86,7 @@ Json value_schema(const Key& key) {
     case Type::directions:
       return any_of(direction_schema(), list_schema(direction_schema()));
     case Type::amount:
-      return {{"type", Json::array({"number", "string"})}};
+      return {{"type", Json::array({"number", "string"})}, {"minLength", 1}};
   }
   return Json::object();
 }

@@ -111,6 +111,22 @@ TEST(HostileCase, AListThatHasADefaultIsNotEmpty) {
   EXPECT_EQ(refusal(with(plate_case(), "[lobes]", "[lobes]\ncompare = []")), "") << "no chart beside";
 }
 
+TEST(HostileCase, AnEmptyTextOrAnEmptyListIsNoKeyThatIsLeftOut) {
+  expect_replaced_refused("on = \"y_min\"", "on = \"\"", "part.supports[0].on: is an empty text; write what is meant");
+  expect_replaced_refused("point = \"P.x\"", "point = \"\"", "updating[0].targets[0].point: is an empty text");
+  expect_replaced_refused("lower = \"380 mm\"", "lower = \"\"", "updating[0].parameters[0].lower: is an empty text");
+  expect_replaced_refused("ratios = [0.008, \"0.6 %\"]", "ratios = []",
+                          "damping.ratios: is a list without an entry; write its numbers, or remove the key");
+  expect_replaced_refused("teeth = 6", "teeth = 6\nhelices = []", "tool.helices: is a list without an entry");
+  EXPECT_EQ(refusal(with(plate_case(), "title = \"plate\"", "title = \"\"")), "") << "no title is one";
+}
+
+TEST(HostileCase, AFileThatIsNotThereIsToldWithItsKey) {
+  const std::string matrices = "[part]\nunit = \"mm\"\nmass_unit = \"t\"\n[part.matrices]\nstiffness = \"none.mtx\"\n";
+  EXPECT_EQ(refusal(matrices, {}, "/nowhere"),
+            "case.toml:5:13: part.matrices.stiffness: there is no file \"/nowhere/none.mtx\"");
+}
+
 TEST(HostileCase, ASelectionOffThePartHoldsNothing) {
   const auto held_on = [](const std::string& selection) {
     return with(plate_case(), "on = \"y_min\"", "on = \"S\"") + "[selections.S." + selection;
@@ -178,11 +194,9 @@ TEST(HostileCase, APartOfAnEmptyNameIsNoDataFile) {
   const std::string part =
       "[part]\nfile = \"\"\nunit = \"mm\"\n[part.material]\nyoungs_modulus = \"71 GPa\"\npoisson_ratio = 0.33\n"
       "density = \"2810 kg/m^3\"\n";
-  EXPECT_EQ(refusal(part), "case.toml:2:8: part.file: names no file; take a .stl, .step or another surface, or a mesh");
+  EXPECT_EQ(refusal(part), "case.toml:2:8: part.file: names no file; write what is meant, or remove the key");
   const std::string matrices = "[part]\nunit = \"mm\"\nmass_unit = \"t\"\n[part.matrices]\nstiffness = \"\"\n";
-  EXPECT_EQ(refusal(matrices),
-            "case.toml:5:13: part.matrices.stiffness: names no file; take a .mtx, .sti, .mat or "
-            "another file of matrices");
+  EXPECT_EQ(refusal(matrices), "case.toml:5:13: part.matrices.stiffness: names no file; write what is meant");
   const std::string tool =
       "[tool]\nteeth = 2\ndiameter = \"10 mm\"\n[[tool.measured]]\nresponse = \"x\"\nforce = \"x\"\nfile = \"\"\n"
       "quantity = \"receptance\"\nunit = \"um/N\"\n";

@@ -104,8 +104,8 @@ TEST(RobotCase, WhatAnArmCannotBeIsSaid) {
   expect_problem(arm, "robot.posture", "give either joints, or pitch");
   expect_problem(arm + reaching + "joints = [0, 0, 0, 0]\n", "robot.posture", "give either joints, or pitch");
   expect_problem(arm + "[robot.posture]\njoints = [0, 0]\n", "robot.posture.joints", "2 angles for 4 joints");
-  expect_problem(arm + "[robot.posture]\njoints = []\ntip = [1, 0, 1]\n", "robot.posture.joints",
-                 "0 angles for 4 joints");
+  expect_problem(arm + "[robot.posture]\njoints = [0]\ntip = [1, 0, 1]\n", "robot.posture.joints",
+                 "1 angles for 4 joints");
   expect_problem(arm + with(reaching, "1.2 m", "9 m"), "robot.posture", "is out of reach");
   expect_problem(with(arm, "inertia = [1, 1, 0.5]", "inertia = [1, 1]") + reaching, "robot.links[0].inertia",
                  "three moments");

@@ -17,6 +17,15 @@ TEST(MessageLine, ControlCharactersNeitherEndTheLineNorMoveTheCursor) {
   EXPECT_EQ(message_line("no case at \"a\nb\x1b[2J\x7f\r\""), "no case at \"a?b?[2J??\"");
 }
 
+TEST(MessageLine, BytesThatAreNoUtf8DoNotReachTheTerminal) {
+  EXPECT_EQ(message_line("no case at \"a\xff\xfe"
+                         "b\""),
+            "no case at \"a??b\"");
+  EXPECT_EQ(message_line("\xc2"), "?") << "a character that is cut short";
+  EXPECT_EQ(message_line("\xc0\x80 \xe2\x82 \xb5"), "?? ?? ?");
+  EXPECT_EQ(message_line("µ € 😀"), "µ € 😀");
+}
+
 TEST(MessageLine, OfALongOnePlaceAndRemedyStay) {
   for (std::size_t shift = 0; shift < 2; ++shift) {
     std::string value(shift, 'x');
