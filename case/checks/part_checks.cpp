@@ -76,7 +76,7 @@ void check_matrices(const io::MatrixFiles& files, Findings& findings) {
 
 void check_part_file(const setup::PartFile& file, Findings& findings) {
   if (file.path.empty()) return;  // which was reported
-  if (!findings.written("part.shape") && !file.path.empty() && !setup::shape_of_file(file.path)) {
+  if (!findings.written("part.shape") && !setup::shape_of_file(file.path)) {
     findings.report(
         "part.file",
         "\"" + file.path.filename().string() +

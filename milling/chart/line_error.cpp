@@ -11,18 +11,23 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::infinity();
 constexpr double safety = 2.0;
-constexpr double unseen = 0.2;  // of the rise over a corner's gap: lobes may end there otherwise than they seem to
+constexpr double unresolved = 2.0;  // further safety where the rows beside a gap bend the boundary to both sides
+constexpr double unseen = 0.5;      // of the rise over a corner's gap: lobes may end there otherwise than they seem to
 
 /// The chatter frequency in cuts of the period T: f_c T, by which a motion's multiplier is turned each period.
 double periods_of(const LobeRow& row, double periods_per_turn) {
   return 60.0 * row.chatter_frequency_hz / (periods_per_turn * row.spindle_speed_rpm);
 }
 
-/// True if two rows may show one motion: both at the depth limit or neither, with one kind and nearly one frequency.
-bool alike(const LobeRow& a, const LobeRow& b) {
+bool nearly_one_frequency(const LobeRow& a, const LobeRow& b) {
   constexpr double step = 0.05;
   const double f = a.chatter_frequency_hz, g = b.chatter_frequency_hz;
-  return a.at_limit == b.at_limit && a.kind == b.kind && std::abs(f - g) <= step * std::max(f, g);
+  return std::abs(f - g) <= step * std::max(f, g);
+}
+
+/// True if two rows may show one motion: both at the depth limit or neither, with one kind and nearly one frequency.
+bool alike(const LobeRow& a, const LobeRow& b) {
+  return a.at_limit == b.at_limit && a.kind == b.kind && nearly_one_frequency(a, b);
 }
 
 /// True if the boundary runs smoothly from one row to the other; of two rows at the depth limit, if it is one motion
@@ -126,13 +131,15 @@ double width(const Around& at) {
   return at.right->spindle_speed_rpm - at.left->spindle_speed_rpm;
 }
 
-/// The largest distance of a smooth curve from its chord over the gap, by the rows beside it.
+/// The largest distance of a smooth curve from its chord over the gap, by the rows beside it. Where the curve bends to
+/// one side before the gap and to the other after it, or only one of the two is known, the bend within may be larger
+/// than either.
 double distance_from_chord(const Around& at, Value value) {
   if (at.before == nullptr && at.after == nullptr) return unknown;
-  double bend = 0.0;
-  if (at.before != nullptr) bend = std::abs(curvature(*at.before, *at.left, *at.right, value));
-  if (at.after != nullptr) bend = std::max(bend, std::abs(curvature(*at.left, *at.right, *at.after, value)));
-  return safety * bend * width(at) * width(at) / 4.0;
+  const double before = at.before != nullptr ? curvature(*at.before, *at.left, *at.right, value) : 0.0;
+  const double after = at.after != nullptr ? curvature(*at.left, *at.right, *at.after, value) : 0.0;
+  const double factor = before * after > 0.0 ? safety : unresolved * safety;
+  return factor * std::max(std::abs(before), std::abs(after)) * width(at) * width(at) / 4.0;
 }
 
 double smooth_error(const Around& at) {
@@ -145,7 +152,8 @@ bool is_wide_for_real_lobe(const LobeRow& left, const LobeRow& right) {
 
 /// The share of the way from a to b periods at which twice as many are a whole number, if they are.
 std::optional<double> share_at_half_period(double a, double b) {
-  const double half = 0.5 * std::ceil(2.0 * std::min(a, b));
+  constexpr double round_off = 1e-9;  // of a flip or fold twice the periods are a whole number but for this
+  const double half = 0.5 * std::ceil(2.0 * std::min(a, b) - round_off);
   if (!(half <= std::max(a, b)) || a == b) return std::nullopt;
   return std::clamp((half - a) / (b - a), 0.05, 0.95);
 }
@@ -162,7 +170,8 @@ std::optional<double> passage_of_real_axis(const LobeRow& left, const LobeRow& r
   return share_at_half_period(a, b);
 }
 
-/// That share where the lobe of one side rises to the depth limit within the gap, by its last two rows.
+/// That share where the lobe of one side rises to the depth limit within the gap, by its last two rows, or by the
+/// motion that is least stable at the limit on the other side.
 std::optional<double> passage_below_limit(const Around& at, double periods_per_turn) {
   if (at.left->at_limit == at.right->at_limit || !is_wide_for_real_lobe(*at.left, *at.right)) return std::nullopt;
   const bool from_left = at.right->at_limit;
@@ -171,7 +180,12 @@ std::optional<double> passage_below_limit(const Around& at, double periods_per_t
   if (behind == nullptr || row.kind != Bifurcation::hopf) return std::nullopt;
   const double a = periods_of(row, periods_per_turn), away_rpm = row.spindle_speed_rpm - behind->spindle_speed_rpm;
   const double change = (a - periods_of(*behind, periods_per_turn)) * width(at) / std::abs(away_rpm);
-  const std::optional<double> share = share_at_half_period(a, a + change);
+  std::optional<double> share = share_at_half_period(a, a + change);
+  const LobeRow& limit = from_left ? *at.right : *at.left;
+  if (!share && nearly_one_frequency(row, limit)) {
+    share = share_at_half_period(a, periods_of(limit, periods_per_turn));
+    if (share && limit.kind != Bifurcation::hopf) share = 0.5;  // it has been passed somewhere within
+  }
   return share && !from_left ? 1.0 - *share : share;
 }
 
@@ -269,6 +283,21 @@ double off_rows(const Around& at, const Continued& left, const Continued& right)
   return std::max(std::abs(1.0 - left.at(h) * depth(*at.right)), std::abs(1.0 - right.at(h) * depth(*at.left)));
 }
 
+/// True if a row knows its lobe's other end over it: of a flip or fold lobe, a second crossing of its kind at its
+/// frequency.
+bool ends_above(const LobeRow& row) {
+  return row.kind != Bifurcation::hopf && std::ranges::any_of(row.crossings, [&](const LobePoint& point) {
+           return point.kind == row.kind && point.depth_m > row.limiting_depth_m &&
+                  std::abs(point.chatter_frequency_hz - row.chatter_frequency_hz) < 1e-6 * row.chatter_frequency_hz;
+         });
+}
+
+/// By how much the boundary steps down at most, relative, where the lobe of `row` ends within the gap: both edges of a
+/// flip or fold lobe meet upright at its end, so that the other lobe is the boundary up to there, wherever that is.
+double step_of_end(const Continued& other, double h, const LobeRow& row) {
+  return ends_above(row) ? std::max(0.0, 1.0 - row.limiting_depth_m * std::max(0.0, other.at(h))) : 0.0;
+}
+
 /// The corner where the continuations of both lobes meet, and what the line is off in the gap.
 void add_corner(const Around& at, LineGap& gap) {
   gap.error = unknown;
@@ -289,7 +318,8 @@ void add_corner(const Around& at, LineGap& gap) {
     const double at_top = std::abs(1.0 - (depth(*at.left) + slope(*at.left, *at.right) * *x) / top);
     gap.error = safety * std::max(at_top, off_chord(at, left, right));
   }
-  if (unseen * rise > gap.error) gap.error = unseen * rise;
+  const double least = std::max({unseen * rise, step_of_end(left, h, *at.right), step_of_end(right, h, *at.left)});
+  if (least > gap.error) gap.error = least;
   else if (x) gap.corner_rpm = at.left->spindle_speed_rpm + std::clamp(*x / h, 0.1, 0.9) * h;
 }
 

@@ -280,6 +280,15 @@ std::vector<CriticalDepths::NearAxis> CriticalDepths::near_axis(double depth_m, 
   return near;
 }
 
+double least_real_depth_m(const GainOnCircle& gain) {
+  double largest = 0.0;
+  for (const double theta : {0.0, pi}) {
+    for (const complex<double> nu : eigenvalues_of(gain.Z(theta), theta))
+      if (nu.imag() == 0.0) largest = std::max(largest, nu.real());
+  }
+  return 1.0 / largest;
+}
+
 std::vector<double> stops_between(const Eigen::VectorXcd& flow) {
   std::vector<double> stops{0.0};
   while (stops.back() < pi) {

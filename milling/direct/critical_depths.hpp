@@ -81,6 +81,11 @@ class CriticalDepths {
   std::vector<Crossing> found_;
 };
 
+/// The least depth, m, at which a multiplier is −1 or +1: 1/ν of the largest real eigenvalue ν of −Z at the ends of the
+/// half circle; infinite if none is positive. Unlike a search it follows nothing, so that it serves to check one.
+/// Throws NumericalError if an eigen-solution fails. Cost: Z and its eigenvalues at two angles.
+[[nodiscard]] double least_real_depth_m(const GainOnCircle& gain);
+
 /// Stops that Z needs with poles whose flow over a period is `flow` (e^{λT}): steps of at most 0.35 rad, and of 0.6 of
 /// the distance to the nearest.
 [[nodiscard]] std::vector<double> stops_between(const Eigen::VectorXcd& flow);

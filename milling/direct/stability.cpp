@@ -116,6 +116,15 @@ void describe_depth_limit(LobeRow& row, const CutAtSpeed& cut, const StabilityOp
   }
 }
 
+/// True if the grid after that of the search has a flip or fold well below the row's limit. Both ends of such a lobe
+/// are real eigenvalues that were a conjugate pair before they met; how far apart they are goes with the root of a
+/// grid's error, so that a coarse grid, by whose crossings alone nothing is amiss, may have no lobe where finer ones
+/// have a wide one. Beyond both of its ends the count of unstable multipliers does not tell of it.
+bool hides_real_lobe(PoleGrids& grids, const LobeRow& row) {
+  constexpr double well_below = 0.98;  // of the limit, by a grid that is not the finest
+  return least_real_depth_m(grids.gain(1)) < well_below * row.limiting_depth_m;
+}
+
 LobeRow row_of(const CutAtSpeed& cut, const StabilityOptions& options) {
   if (cut.process.cutter.depends_on_depth()) {
     LobeRow row = helical_row(cut, options);
@@ -143,6 +152,7 @@ LobeRow row_of(const CutAtSpeed& cut, const StabilityOptions& options) {
     grids.beyond_first(estimating(cut, std::min(options.depth_limit_m, first.depth_m()), options));
     LobeRow row = row_from(grids, std::move(first), cut.spindle_speed_rpm, options);
     if (row.crossings.empty()) describe_depth_limit(row, cut, options);
+    if (sound(row) && hides_real_lobe(grids, row)) row.status = StabilityStatus::crossing_missed;
     // By the nodes of the search: a crossing that is none on finer grids (two flips that become one Hopf crossing
     // beside them) has been sought on many without avail, and another search with a few more nodes sees it as it is.
     if ((sound(row) && row.searched_m >= wanted) || 3 * grids.nodes(0) >= options.most_nodes) return row;

@@ -23,19 +23,22 @@ struct RandomCut {
 
 /// One to three modes in the plane of the cut, teeth, immersion and coefficients at random; speeds from a sixth of the
 /// lowest natural frequency to three times the highest a tooth; depths to forty times one that is surely stable.
-inline RandomCut random_cut(unsigned seed) {
+/// With `close` modes each one but the first is that before, higher by a thousandth to a tenth, at another damping
+/// ratio.
+inline RandomCut random_cut(unsigned seed, bool close = false) {
   std::mt19937 generator(seed);
   const auto between = [&](double a, double b) {
     return a + (b - a) * static_cast<double>(generator()) / static_cast<double>(std::mt19937::max());
   };
   RandomCut cut;
-  const int modes = 1 + static_cast<int>(between(0.0, 2.999));
+  const int modes = (close ? 2 : 1) + static_cast<int>(between(0.0, close ? 1.999 : 2.999));
   cut.structure.poles.resize(modes);
   cut.structure.phi.resize(3, modes);
   cut.structure.b.resize(3, modes);
   double lowest_hz = 1e9, highest_hz = 0.0;
   for (int k = 0; k < modes; ++k) {
-    const double hz = 300.0 * std::pow(6.0, between(0.0, 1.0));
+    double hz = 300.0 * std::pow(6.0, between(0.0, 1.0));
+    if (close && k > 0) hz = highest_hz * (1.0 + 1e-3 * std::pow(100.0, between(0.0, 1.0)));
     lowest_hz = std::min(lowest_hz, hz);
     highest_hz = std::max(highest_hz, hz);
     const double omega = 2.0 * std::numbers::pi * hz;

@@ -1,5 +1,6 @@
 // The line of a chart against the boundary between its speeds.
-// With THINWALL_SLOW=1 in the environment twenty times as many speeds of the random cuts are looked at.
+// With THINWALL_SLOW=1 in the environment twenty times as many speeds of the random cuts are looked at, and 200 cuts of
+// modes close to each other instead of nine.
 
 #include "milling/chart/refined_lobes.hpp"
 
@@ -12,7 +13,9 @@
 #include <iterator>
 #include <map>
 #include <mutex>
+#include <numeric>
 #include <random>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -387,11 +390,14 @@ bool in_narrow_gap(const Lobes& chart, double rpm) {
   return right->spindle_speed_rpm <= std::prev(right)->spindle_speed_rpm * (1.0 + narrow_gap);
 }
 
-class LineOfARandomCut : public ::testing::TestWithParam<unsigned> {};
+/// True if the boundary is a flip or fold lobe there and ends within the share of the speed that is not searched.
+bool in_narrow_real_lobe(double rpm, const RowAt& row_at, const StabilityOptions& options) {
+  const auto is_real = [&](double n) { return row_at(n, options).kind != Bifurcation::hopf; };
+  return is_real(rpm) && !is_real(rpm * (1.0 - narrow_real_lobe)) && !is_real(rpm * (1.0 + narrow_real_lobe));
+}
 
-TEST_P(LineOfARandomCut, IsTheBoundaryBetweenItsSpeeds) {
-  const int looked_at = std::getenv("THINWALL_SLOW") != nullptr ? 4000 : 200;
-  const RandomCut cut = random_cut(GetParam());
+/// The line of a cut is the boundary at so many speeds at random that no chart knows, within the tolerance and 1 %.
+void expect_line_is_boundary(const RandomCut& cut, int looked_at) {
   StabilityOptions options;
   options.depth_limit_m = cut.deepest_m;
   const RowAt row_at = [&](double rpm, const StabilityOptions& with) {
@@ -405,10 +411,37 @@ TEST_P(LineOfARandomCut, IsTheBoundaryBetweenItsSpeeds) {
     rpm.push_back(cut.slowest_rpm + (cut.fastest_rpm - cut.slowest_rpm) * (generator() + 0.5) / 4294967296.0);
   options.follow = 1.0;
   std::erase_if(rpm, [&](double n) { return in_narrow_gap(chart, n); });  // a step of the boundary, drawn as one
-  EXPECT_LE(std::ranges::max(distances(chart, row_at, options, rpm)), 0.03);
+  const std::vector<double> off = distances(chart, row_at, options, rpm);
+  for (std::size_t i = 0; i < off.size(); ++i)
+    if (off[i] > 0.03)
+      EXPECT_TRUE(in_narrow_real_lobe(rpm[i], row_at, options)) << off[i] << " at " << rpm[i] << " rpm";
+}
+
+class LineOfARandomCut : public ::testing::TestWithParam<unsigned> {};
+
+TEST_P(LineOfARandomCut, IsTheBoundaryBetweenItsSpeeds) {
+  expect_line_is_boundary(random_cut(GetParam()), std::getenv("THINWALL_SLOW") != nullptr ? 4000 : 200);
 }
 
 INSTANTIATE_TEST_SUITE_P(RandomSystems, LineOfARandomCut, ::testing::Range(1U, 21U));
+
+class LineOfCloseModes : public ::testing::TestWithParam<unsigned> {};
+
+TEST_P(LineOfCloseModes, IsTheBoundaryBetweenItsSpeeds) {
+  expect_line_is_boundary(random_cut(GetParam(), true), 4000);
+}
+
+/// Those of sixty whose lobes end, meet or bend within a gap as the rows beside it hardly tell.
+const std::vector<unsigned> hard_seeds{3, 13, 19, 23, 24, 25, 27, 52, 59};
+
+std::vector<unsigned> seeds_of_close_modes() {
+  if (std::getenv("THINWALL_SLOW") == nullptr) return hard_seeds;
+  std::vector<unsigned> seeds(200);
+  std::iota(seeds.begin(), seeds.end(), 1U);
+  return seeds;
+}
+
+INSTANTIATE_TEST_SUITE_P(RandomSystems, LineOfCloseModes, ::testing::ValuesIn(seeds_of_close_modes()));
 
 TEST(RefinedLine, DoesNotDependOnTheNumberOfThreads) {
   const MillingProcess process = testing::benchmark_process(0.1);
