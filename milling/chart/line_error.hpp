@@ -33,17 +33,20 @@ constexpr double narrow_real_lobe = 1e-3;
 ///
 ///     e = 2 |w[n_i−1, n_i, n_i+1]| h²/4 / √(w_i w_i+1)
 ///
-/// with the larger of the divided differences of both sides, doubled for what it changes within the gap. Where two
+/// with the larger of the divided differences of both sides, doubled for what it changes within the gap, and doubled
+/// again where the two have opposite signs or one alone is known: the rows do not resolve the bend then. Where two
 /// lobes meet the boundary is the lower of them, and each is continued into the gap, in 1/w by the parabola of three of
 /// its rows, or by its last chord where it has two, or through the deeper crossing that the other row has of it: the
 /// error is twice the distance of the line from the lower of both, and, where they do not meet, of each from the
-/// other's row. A gap beside which a lobe has one row only tells nothing: the error
-/// is infinite. Where 2 f_c T of a Hopf lobe that both rows show, or of one that rises to the depth limit, or of the
-/// least stable motion there, passes a whole number, a pair of multipliers passes −1 or +1 and a flip or fold lobe may
-/// lie within (strong resonances 1:2 and 1:1; Kuznetsov, Elements of Applied Bifurcation Theory, 2004, sections 9.5.2
-/// and 9.5.3): the error of such a gap is infinite, too, unless it is narrower than `narrow_real_lobe`, and its corner
-/// is that passage, linearly between the rows. The error is 0 of a gap that is narrower than the share `narrow`. `rows`
-/// by rising speed. Cost O(rows).
+/// other's row; at least half the logarithm of the ratio of both rows' depths, since a lobe may end otherwise than its
+/// rows tell; and at least the step down to a flip or fold lobe of which a row knows both edges, since they meet
+/// upright at its end, anywhere within the gap. A gap beside which a lobe has one row only tells nothing: the error is
+/// infinite. Where 2 f_c T passes a whole number, a pair of multipliers passes −1 or +1 and a flip or fold lobe may lie
+/// within (strong resonances 1:2 and 1:1; Kuznetsov, Elements of Applied Bifurcation Theory, 2004, sections 9.5.2 and
+/// 9.5.3): of a Hopf lobe that both rows show, of one that rises to the depth limit, on to the least stable motion
+/// there, or of that motion at both rows. The error of such a gap is infinite, too, unless it is narrower than
+/// `narrow_real_lobe`, and its corner is that passage, linearly between the rows. The error is 0 of a gap that is
+/// narrower than the share `narrow`. `rows` by rising speed. Cost O(rows).
 [[nodiscard]] std::vector<LineGap> line_gaps(const std::vector<LobeRow>& rows, const MillingProcess& process,
                                              double narrow = narrow_gap);
 
