@@ -18,8 +18,8 @@ bool is_control(char byte) {
   return (code < 0x20 && byte != '\t') || code == 0x7f;
 }
 
-/// How many bytes the character that begins at `at` has by its first one; 1 where it is cut short or begins with a byte
-/// that no character begins with.
+/// The number of bytes of the character that begins at `at`, by the first of them; 1 where it is cut short or begins
+/// with a byte that no character begins with.
 std::size_t character_length(const std::string& text, std::size_t at) {
   const auto first = static_cast<unsigned char>(text[at]);
   const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : first >= 0xC2 ? 2 : 1;

@@ -9,7 +9,7 @@ from judge import Input
 
 AT = "commands"  # the folder of these inputs; `prepare` fills it
 SMALL = ["--set", "lobes.count=3", "--set", "lobes.most_added=0", "-q"]
-# What each command is given beside the option that is tried; where it would compute for long, a case that is not there.
+# The words of each command beside the option that is tried; a case that is not there where it would compute for long.
 RIGHT = {
     "run": ["run", "cases/ding-2010", *SMALL, "--out", "new"], "check": ["check", "cases/ding-2010"],
     "lobes": ["lobes", "tip.csv", "--tool", "tool.toml", "--quantity", "accelerance", "--unit", "m/s^2/N", *SMALL, "--out", "new"],

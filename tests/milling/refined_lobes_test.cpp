@@ -390,12 +390,6 @@ bool in_narrow_gap(const Lobes& chart, double rpm) {
   return right->spindle_speed_rpm <= std::prev(right)->spindle_speed_rpm * (1.0 + narrow_gap);
 }
 
-/// True if the boundary is a flip or fold lobe there and ends within the share of the speed that is not searched.
-bool in_narrow_real_lobe(double rpm, const RowAt& row_at, const StabilityOptions& options) {
-  const auto is_real = [&](double n) { return row_at(n, options).kind != Bifurcation::hopf; };
-  return is_real(rpm) && !is_real(rpm * (1.0 - narrow_real_lobe)) && !is_real(rpm * (1.0 + narrow_real_lobe));
-}
-
 /// The line of a cut is the boundary at so many speeds at random that no chart knows, within the tolerance and 1 %.
 void expect_line_is_boundary(const RandomCut& cut, int looked_at) {
   StabilityOptions options;
@@ -412,9 +406,7 @@ void expect_line_is_boundary(const RandomCut& cut, int looked_at) {
   options.follow = 1.0;
   std::erase_if(rpm, [&](double n) { return in_narrow_gap(chart, n); });  // a step of the boundary, drawn as one
   const std::vector<double> off = distances(chart, row_at, options, rpm);
-  for (std::size_t i = 0; i < off.size(); ++i)
-    if (off[i] > 0.03)
-      EXPECT_TRUE(in_narrow_real_lobe(rpm[i], row_at, options)) << off[i] << " at " << rpm[i] << " rpm";
+  for (std::size_t i = 0; i < off.size(); ++i) EXPECT_LE(off[i], 0.03) << "at " << rpm[i] << " rpm";  // nor is it NaN
 }
 
 class LineOfARandomCut : public ::testing::TestWithParam<unsigned> {};
@@ -431,7 +423,8 @@ TEST_P(LineOfCloseModes, IsTheBoundaryBetweenItsSpeeds) {
   expect_line_is_boundary(random_cut(GetParam(), true), 4000);
 }
 
-/// Those of sixty whose lobes end, meet or bend within a gap as the rows beside it hardly tell.
+/// Seeds, found among the first sixty, of cuts whose lobes end, meet or bend in a gap as the rows beside it hardly
+/// tell.
 const std::vector<unsigned> hard_seeds{3, 13, 19, 23, 24, 25, 27, 52, 59};
 
 std::vector<unsigned> seeds_of_close_modes() {
