@@ -345,7 +345,10 @@ std::vector<LineGap> line_gaps(const std::vector<LobeRow>& rows, const MillingPr
       gap.corner_rpm = left.spindle_speed_rpm + *passage * width(at);
     } else if (left.at_limit && right.at_limit) gap.error = may_hide_lobe(at, joined[i]) ? unknown : 0.0;
     else if (gap.corner) add_corner(at, gap);
-    else gap.error = smooth_error(at);
+    else {
+      gap.error = smooth_error(at);
+      gap.one_sided = at.before == nullptr || at.after == nullptr;
+    }
   }
   return gaps;
 }

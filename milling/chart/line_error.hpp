@@ -12,6 +12,7 @@ namespace thinwall::milling {
 struct LineGap {
   double error = 0.0;       ///< relative, of the line between the two; infinite: the rows do not tell
   bool corner = false;      ///< two lobes meet within
+  bool one_sided = false;   ///< no corner, but the rows of one side alone tell how the boundary bends
   double corner_rpm = 0.0;  ///< where, as far as is known; else the middle
   double row_error = 0.0;   ///< the larger estimate of the two rows, relative: what no speed between them can mend
 };

@@ -31,6 +31,13 @@ double between(const LobeRow& a, const LobeRow& b, double rpm) {
   return a.limiting_depth_m + share * (b.limiting_depth_m - a.limiting_depth_m);
 }
 
+double widest_gap_rpm(const std::vector<LobeRow>& rows) {
+  double widest = 0.0;
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    widest = std::max(widest, rows[i].spindle_speed_rpm - rows[i - 1].spindle_speed_rpm);
+  return widest;
+}
+
 /// Less than this cannot be gained: a line through rows with errors of their own.
 double wanted_error(const LineGap& gap, double tolerance) {
   return std::max(tolerance, 2.0 * gap.row_error);
@@ -48,13 +55,20 @@ void add_speeds(const LineGap& gap, const LobeRow& left, const LobeRow& right, d
     add(left.spindle_speed_rpm + i / parts * (right.spindle_speed_rpm - left.spindle_speed_rpm));
 }
 
-/// The speeds of the next generation, at most so many.
+/// True if a gap needs no speed: its line is near enough to the boundary, and no rows of one side alone, which know of
+/// no step on the other, tell so of a gap as wide as those of the even speeds.
+bool suffices(const LineGap& gap, double width_rpm, double even_rpm, double wanted) {
+  return gap.error <= wanted && !(gap.one_sided && width_rpm > 0.75 * even_rpm);
+}
+
+/// The speeds of the next generation, at most so many; `even_rpm` is the width of the widest gap before the first.
 std::vector<Added> next_speeds(const std::vector<LobeRow>& rows, const std::vector<LineGap>& gaps, double tolerance,
-                               std::size_t most) {
+                               double even_rpm, std::size_t most) {
   std::vector<Added> speeds;
   for (std::size_t i = 0; i < gaps.size(); ++i) {
     const double wanted = wanted_error(gaps[i], tolerance);
-    if (gaps[i].error > wanted) add_speeds(gaps[i], rows[i], rows[i + 1], wanted, speeds);
+    const double width_rpm = rows[i + 1].spindle_speed_rpm - rows[i].spindle_speed_rpm;
+    if (!suffices(gaps[i], width_rpm, even_rpm, wanted)) add_speeds(gaps[i], rows[i], rows[i + 1], wanted, speeds);
   }
   if (speeds.size() <= most) return speeds;
   std::ranges::stable_sort(speeds, std::greater<>{}, &Added::weight);
@@ -124,10 +138,12 @@ Lobes refined(Lobes chart, const RowAt& row_at, const MillingProcess& process, c
   std::vector<LineGap> gaps;
   StabilityOptions between_even = options;
   between_even.follow = std::min(options.follow, follow_between);
+  const double even_rpm = widest_gap_rpm(rows);
   const auto refine = [&] {
     while (true) {
       gaps = line_gaps(rows, process, line.narrow);
-      const auto speeds = next_speeds(rows, gaps, line.tolerance, static_cast<std::size_t>(line.most_added - added));
+      const auto most = static_cast<std::size_t>(line.most_added - added);
+      const auto speeds = next_speeds(rows, gaps, line.tolerance, even_rpm, most);
       if (speeds.empty()) return;
       insert_rows(rows, speeds, row_at, between_even, kept);
       added += static_cast<int>(speeds.size());

@@ -52,9 +52,10 @@ using Path = CriticalDepths::Path;
 /// without partner came from, or went to, values too small to matter.
 struct Step {
   complex<double> from, to;
-  complex<double> change;     ///< of the path's slope, rad⁻¹
-  double miss = 0.0;          ///< distance of `to` from where the path stood or led to
-  double next_nearest = 0.0;  ///< the same of the second choice
+  complex<double> change;           ///< of the path's slope, rad⁻¹
+  complex<double> change_of_depth;  ///< of the slope of 1/ν, m/rad
+  double miss = 0.0;                ///< distance of `to` from where the path stood or led to
+  double next_nearest = 0.0;        ///< the same of the second choice
   bool slope_known = false;
 };
 
@@ -90,8 +91,10 @@ Matching matched(const std::vector<Path>& a, std::vector<Path>& b, double length
     const Path& from = a[c.i];
     Path& to = b[c.j];
     to.slope = (to.nu - from.nu) / length_rad;
+    to.slope_of_depth = (1.0 / to.nu - 1.0 / from.nu) / length_rad;
     to.slope_known = true;
-    result.steps.push_back({from.nu, to.nu, to.slope - from.slope, c.distance, second, from.slope_known});
+    result.steps.push_back({from.nu, to.nu, to.slope - from.slope, to.slope_of_depth - from.slope_of_depth, c.distance,
+                            second, from.slope_known});
   }
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (used_a[i] == 0) result.largest_alone = std::max(result.largest_alone, std::abs(a[i].nu));
@@ -102,10 +105,23 @@ Matching matched(const std::vector<Path>& a, std::vector<Path>& b, double length
   return result;
 }
 
+/// True if a path may bend away from its chord by more than its distance from the real axis, the lesser of its ends or,
+/// where it crosses the axis, the greater: it bends by about an eighth of the change of its slope over the step, and
+/// four times as much is allowed for. Towards a resonance ν grows as its inverse, whose slope hardly changes: there the
+/// bend of 1/ν, which is on the axis where ν is, tells what that of ν does not.
+bool may_bend_to_axis(const Step& s, double length_rad) {
+  const auto is_far_enough = [length_rad](complex<double> from, complex<double> to, complex<double> change) {
+    const auto [lesser, greater] = std::minmax({std::abs(from.imag()), std::abs(to.imag())});
+    const bool crosses = from.imag() * to.imag() < 0.0;
+    return 0.5 * std::abs(change.imag()) * length_rad <= (crosses ? greater : lesser);
+  };
+  return !is_far_enough(s.from, s.to, s.change) || !is_far_enough(1.0 / s.from, 1.0 / s.to, s.change_of_depth);
+}
+
 /// True if a step between stops may hide something: a match that is not clear, or a path near the positive real axis
-/// that could cross it twice. A path bends away from its chord by about an eighth of the change of its slope over the
-/// step; four times as much is allowed for.
+/// that could cross it once more than its ends tell.
 bool unclear(const Step& s, double length_rad, double smallest) {
+  constexpr double far = 5.0;  // a path that bends by half a radian in a step leaves its chord by an eighth of that
   const double jump = std::abs(s.to - s.from);
   const double size = std::max(std::abs(s.from), std::abs(s.to));
   if (std::max(s.from.real(), s.to.real()) <= 0.0) return false;
@@ -114,9 +130,10 @@ bool unclear(const Step& s, double length_rad, double smallest) {
   const double off_axis = std::min(std::abs(s.from.imag()), std::abs(s.to.imag()));
   if (!crosses && jump <= off_axis) return false;  // any other partner as near lies on the same side of the axis
   if (s.miss > 0.5 * s.next_nearest && s.miss > 0.1 * size) return true;
-  if (crosses) return jump > 0.8 * size;
-  if (jump <= 1.5 * off_axis || jump <= 0.02 * size) return false;
-  return !s.slope_known || 0.5 * std::abs(s.change.imag()) * length_rad > off_axis;
+  if (crosses && jump > 0.8 * size) return true;
+  if ((!crosses && jump <= 1.5 * off_axis) || jump <= 0.02 * size) return false;
+  if (!crosses && jump > far * off_axis) return true;
+  return !s.slope_known || may_bend_to_axis(s, length_rad);
 }
 
 /// The crossings of steps between two stops; nothing if one could not be brought to the axis between them.
@@ -132,6 +149,7 @@ std::optional<std::vector<Crossing>> crossings_of(const GainOnCircle& gain, doub
     if (!to_axis(gain, real, crossing) || crossing.theta_rad < from_rad || crossing.theta_rad > to_rad) {
       return std::nullopt;
     }
+    if (std::abs(1.0 / crossing.depth_m - real) > 0.5 * std::abs(s.to - s.from)) return std::nullopt;  // another path's
     if (crossing.depth_m <= depth_limit_m) crossings.push_back(std::move(crossing));
   }
   return crossings;
@@ -140,7 +158,7 @@ std::optional<std::vector<Crossing>> crossings_of(const GainOnCircle& gain, doub
 /// Real eigenvalues at the ends of the half circle, where a multiplier is −1 or 1.
 void add_at_end(const GainOnCircle& gain, double theta, const std::vector<Path>& values, double depth_limit_m,
                 std::vector<Crossing>& found) {
-  for (const auto& [nu, slope, slope_known] : values) {
+  for (const auto& [nu, slope, slope_of_depth, slope_known] : values) {
     if (nu.imag() != 0.0 || nu.real() * depth_limit_m < 1.0) continue;
     Crossing crossing{0.0, theta, 0, {}};
     if (to_axis(gain, nu, crossing)) found.push_back(std::move(crossing));

@@ -31,7 +31,8 @@ class CriticalDepths {
   /// An eigenvalue ν(θ) of −Z, and how it came there.
   struct Path {
     std::complex<double> nu;
-    std::complex<double> slope = 0.0;  ///< over the last step, rad⁻¹
+    std::complex<double> slope = 0.0;           ///< over the last step, rad⁻¹
+    std::complex<double> slope_of_depth = 0.0;  ///< that of 1/ν, m/rad
     bool slope_known = false;
   };
 

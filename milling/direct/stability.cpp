@@ -102,9 +102,18 @@ Multiplier multiplier_of(const CutAtSpeed& cut, double depth_m, const StabilityO
   }
 }
 
-/// Describes the limit of a row without crossings by the multiplier at the depth limit.
-void describe_depth_limit(LobeRow& row, const CutAtSpeed& cut, const StabilityOptions& options) {
-  const Multiplier mu = multiplier_of(cut, options.depth_limit_m, options);
+/// Ends a row without crossings at the depth limit, described by the multiplier there. Where a crossing was missed or
+/// lost (the search ended before the limit without one, or the multiplier is outside of the unit circle) the row ends
+/// at `stable_m`, to which the cut is known to be stable, or where it surely is.
+void end_without_crossing(LobeRow& row, const CutAtSpeed& cut, double stable_m, const StabilityOptions& options) {
+  const bool lost = row.status == StabilityStatus::crossing_missed || row.searched_m < options.depth_limit_m;
+  const Multiplier mu = lost ? Multiplier{} : multiplier_of(cut, options.depth_limit_m, options);
+  if (lost || mu.modulus > 1.0 + mu.error_estimate) {
+    row.status = StabilityStatus::crossing_missed;
+    row.limiting_depth_m = std::max(stable_m, std::min(surely_stable_depth_m(cut), options.depth_limit_m));
+    row.error_estimate = 1.0;
+    return;
+  }
   row.limiting_depth_m = options.depth_limit_m;
   row.at_limit = true;
   row.chatter_frequency_hz = mu.chatter_frequency_hz;
@@ -128,13 +137,7 @@ bool hides_real_lobe(PoleGrids& grids, const LobeRow& row) {
 LobeRow row_of(const CutAtSpeed& cut, const StabilityOptions& options) {
   if (cut.process.cutter.depends_on_depth()) {
     LobeRow row = helical_row(cut, options);
-    if (row.crossings.empty() && row.status == StabilityStatus::crossing_missed) {
-      // As deep as it is known to be stable.
-      row.limiting_depth_m = std::max(row.searched_m, std::min(surely_stable_depth_m(cut), options.depth_limit_m));
-      row.error_estimate = 1.0;
-    } else if (row.crossings.empty()) {
-      describe_depth_limit(row, cut, options);
-    }
+    if (row.crossings.empty()) end_without_crossing(row, cut, row.searched_m, options);
     return row;
   }
   const double likely = options.expected_depth_m.value_or(8.0 * surely_stable_depth_m(cut));
@@ -151,7 +154,7 @@ LobeRow row_of(const CutAtSpeed& cut, const StabilityOptions& options) {
     const double wanted = wanted_m(first.found, options);
     grids.beyond_first(estimating(cut, std::min(options.depth_limit_m, first.depth_m()), options));
     LobeRow row = row_from(grids, std::move(first), cut.spindle_speed_rpm, options);
-    if (row.crossings.empty()) describe_depth_limit(row, cut, options);
+    if (row.crossings.empty()) end_without_crossing(row, cut, 0.0, options);
     if (sound(row) && hides_real_lobe(grids, row)) row.status = StabilityStatus::crossing_missed;
     // By the nodes of the search: a crossing that is none on finer grids (two flips that become one Hopf crossing
     // beside them) has been sought on many without avail, and another search with a few more nodes sees it as it is.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -80,6 +82,55 @@ TEST(DepthLimit, AFlipLobeThatTheCoarsestGridDoesNotHaveIsFound) {
     EXPECT_EQ(row.kind, Bifurcation::flip);
     EXPECT_GT(row.limiting_depth_m, 4.05e-3);
     EXPECT_LT(row.limiting_depth_m, 4.10e-3);
+  }
+}
+
+// The lobe of the lower mode closes at 0.41 mm, above which the cut is stable up to 0.85 mm: where the eigenvalues are
+// followed around the circle, the one path of both of its crossings passes the axis and returns within a step.
+TEST(DepthLimit, ALobeThatIsPassedWithinAStepOfTheSearchIsFound) {
+  const RandomCut cut = testing::light_cut(200.0, 0.01, 540.0, 0.03, 6);
+  StabilityOptions options;
+  options.depth_limit_m = cut.deepest_m;
+  for (const double rpm : {3118.0, 3120.0, 3122.0}) {
+    const CutAtSpeed at_speed = cut_at_speed(cut.structure, cut.process, rpm);
+    for (const double expected_mm : {0.0, 0.3, 0.6, 1.5}) {
+      if (expected_mm > 0.0) options.expected_depth_m = 1e-3 * expected_mm;
+      const LobeRow row = limiting_depth(cut.structure, cut.process, rpm, options);
+      EXPECT_EQ(row.status, StabilityStatus::converged) << rpm << " rpm, expected " << expected_mm << " mm";
+      EXPECT_LT(row.limiting_depth_m, 0.35e-3) << rpm << " rpm, expected " << expected_mm << " mm";
+      const auto modulus = [&](double depth_m) {
+        return uniform_step_multiplier(at_speed, semi_discretization(1), 200, depth_m).modulus;
+      };
+      EXPECT_LT(modulus(0.995 * row.limiting_depth_m), 1.0);
+      EXPECT_GT(modulus(1.005 * row.limiting_depth_m), 1.0);
+    }
+  }
+}
+
+/// The gain with fifteen stops more between each two.
+GainOnCircle with_finer_stops(GainOnCircle gain) {
+  std::vector<double> stops;
+  for (std::size_t i = 0; i + 1 < gain.stops.size(); ++i) {
+    for (int k = 0; k < 16; ++k) stops.push_back(gain.stops[i] + (gain.stops[i + 1] - gain.stops[i]) * k / 16.0);
+  }
+  stops.push_back(gain.stops.back());
+  gain.stops = std::move(stops);
+  return gain;
+}
+
+// Systems of which some speeds had other crossings before steps were judged by the bend of 1/ν, by their length beside
+// the distance from the axis, and by whether Newton's rule has stayed on the path.
+TEST(CriticalDepths, OfLightCutsAreAllThatFinerStopsFind) {
+  for (const unsigned seed : {60U, 89U, 116U, 129U, 132U, 192U, 632U, 1457U, 1973U, 2286U, 4150U}) {
+    const RandomCut cut = testing::random_light_cut(seed);
+    for (const double rpm : spindle_speeds(cut.slowest_rpm, cut.fastest_rpm, 200)) {
+      const CutAtSpeed at_speed = cut_at_speed(cut.structure, cut.process, rpm);
+      const DiscreteCut d = discrete(at_speed, resolving(at_speed, cut.deepest_m), 0.0);
+      const std::vector<Crossing> found = CriticalDepths(gain_of(d)).up_to(cut.deepest_m);
+      const std::vector<Crossing> all = CriticalDepths(with_finer_stops(gain_of(d))).up_to(cut.deepest_m);
+      ASSERT_EQ(found.size(), all.size()) << "system " << seed << " at " << rpm << " rpm";
+      for (std::size_t i = 0; i < all.size(); ++i) EXPECT_NEAR(found[i].depth_m / all[i].depth_m, 1.0, 1e-6);
+    }
   }
 }
 

@@ -10,6 +10,7 @@
 #include "milling/cut/process.hpp"
 #include "milling/direct/cut_at_speed.hpp"
 #include "milling/structure/relative_structure.hpp"
+#include "tests/milling/single_mode.hpp"
 
 namespace thinwall::milling::testing {
 
@@ -57,6 +58,32 @@ inline RandomCut random_cut(unsigned seed, bool close = false) {
   cut.fastest_rpm = 60.0 * highest_hz * 3.0 / cut.process.cutter.teeth;
   cut.deepest_m = 40.0 * surely_stable_depth_m(cut_at_speed(cut.structure, cut.process, cut.fastest_rpm));
   return cut;
+}
+
+/// A finishing cut of a plate by an end mill of 16 mm, with two modes across the surface. At its speeds the teeth pass
+/// 1.3 to 1.6 times as often as the lower mode swings, and a lobe of that mode may close a little above its lowest
+/// depth.
+inline RandomCut light_cut(double first_hz, double first_ratio, double second_hz, double second_ratio, int teeth) {
+  RandomCut cut;
+  cut.structure = relative_structure(modal_model({{first_hz, first_ratio, 0.7, Eigen::Vector3d::UnitY()},
+                                                  {second_hz, second_ratio, 0.35, Eigen::Vector3d::UnitY()}}),
+                                     "P");
+  cut.process.cutter = {teeth, 0.016};
+  cut.process.coefficients = {2220e6, 666e6, 0.0, 0.0, 0.0, 0.0};
+  cut.process.engagement = engagement_of(cut.process.cutter, 0.2e-3, MillingDirection::down);
+  cut.slowest_rpm = 60.0 / teeth * 1.3 * first_hz;
+  cut.fastest_rpm = 60.0 / teeth * 1.6 * first_hz;
+  cut.deepest_m = 2e-3;
+  return cut;
+}
+
+inline RandomCut random_light_cut(unsigned seed) {
+  std::mt19937 generator(seed);
+  const auto between = [&](double a, double b) {
+    return a + (b - a) * static_cast<double>(generator()) / static_cast<double>(std::mt19937::max());
+  };
+  const double first_hz = between(190.0, 235.0), first_ratio = between(0.005, 0.03), second_hz = between(500.0, 620.0);
+  return light_cut(first_hz, first_ratio, second_hz, between(0.005, 0.03), 1 + static_cast<int>(between(0.0, 5.999)));
 }
 
 }  // namespace thinwall::milling::testing
