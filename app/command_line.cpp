@@ -164,8 +164,9 @@ ExitCode reduce(const Arguments& arguments, std::ostream& out) {
   ReduceRequest request = arguments.reduce;
   request.display = start_log(arguments);
   messages_to_log();
+  const cases::Case source = cases::read_case(arguments.case_path, arguments.overrides);
   const auto ranks = start_ranks(arguments.ranks);
-  out << reduce_part(cases::read_case(arguments.case_path, arguments.overrides), request);
+  out << reduce_part(source, request);
   return ExitCode::done;
 }
 

@@ -1,6 +1,8 @@
 #include "core/message_line.hpp"
 
-#include <utility>
+#include <algorithm>
+#include <array>
+#include <string_view>
 
 namespace thinwall::core {
 
@@ -29,19 +31,31 @@ std::size_t character_length(const std::string& text, std::size_t at) {
   return length;
 }
 
+/// True of a character that a terminal does not show but obeys: the control characters from U+0080 to U+009F, and those
+/// that turn the direction of the text behind them (Unicode Standard Annex 9, tables 1 and 2).
+bool is_obeyed(std::string_view character) {
+  constexpr std::array<std::string_view, 12> directions{"\u061c", "\u200e", "\u200f", "\u202a", "\u202b", "\u202c",
+                                                        "\u202d", "\u202e", "\u2066", "\u2067", "\u2068", "\u2069"};
+  const bool second_control = character.size() == 2 && character >= "\u0080" && character <= "\u009f";
+  return second_control || std::ranges::find(directions, character) != directions.end();
+}
+
 }  // namespace
 
-std::string printable_text(std::string text) {
+std::string printable_text(const std::string& text) {
+  std::string shown;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t length = character_length(text, at);
-    if (length == 1 && (is_control(text[at]) || static_cast<unsigned char>(text[at]) >= 0x80)) text[at] = '?';
+    const bool is_bad_byte = length == 1 && (is_control(text[at]) || static_cast<unsigned char>(text[at]) >= 0x80);
+    const std::string_view character = std::string_view(text).substr(at, length);
+    shown += is_bad_byte || is_obeyed(character) ? "?" : character;
     at += length;
   }
-  return text;
+  return shown;
 }
 
 std::string message_line(std::string text) {
-  text = printable_text(std::move(text));
+  text = printable_text(text);
   if (text.size() <= longest) return text;
   std::size_t head = longest_head, tail = text.size() - longest_tail;
   while (head > 0 && continues_character(text[head])) --head;

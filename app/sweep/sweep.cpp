@@ -146,14 +146,35 @@ void run_point(const fs::path& folder, const SweepRequest& request, const cases:
   row.figures = sweep_figures(found.summary);
 }
 
+/// The values put over the case at a point.
+std::vector<std::string> overrides_of(const SweepRequest& request, const std::vector<std::string>& values) {
+  std::vector<std::string> overrides = request.overrides;
+  std::ranges::copy(values, std::back_inserter(overrides));
+  return overrides;
+}
+
+/// Throws the CaseError of the first point if no point has a case that can be read, so that a mistake in the case ends
+/// the sweep before anything is written; of a point alone it is a row. Looks at so many points at most.
+void require_a_case(const SweepRequest& request, const SweepTable& table) {
+  constexpr std::size_t most = 50;
+  std::exception_ptr first;
+  for (std::size_t i = 0; i < std::min(most, table.rows.size()); ++i) {
+    try {
+      (void)cases::read_case(request.case_path, overrides_of(request, overrides_at(table.axes, table.rows[i].point)));
+      return;
+    } catch (const cases::CaseError&) {
+      if (!first) first = std::current_exception();
+    }
+  }
+  if (first) std::rethrow_exception(first);
+}
+
 void compute_point(const fs::path& folder, const SweepRequest& request, const SweepPlan& plan, const RunCase& run_case,
                    SweepRow& row) {
   const std::vector<std::string> values = overrides_at(plan.axes, row.point);
-  std::vector<std::string> overrides = request.overrides;
-  std::ranges::copy(values, std::back_inserter(overrides));
   std::string key;
   guard_point(row, [&] {
-    const cases::Case source = cases::read_case(request.case_path, overrides);
+    const cases::Case source = cases::read_case(request.case_path, overrides_of(request, values));
     key = point_key(source);
     if (auto kept = request.fresh ? std::nullopt : kept_point(folder, key)) {
       take(row, std::move(*kept));
@@ -249,6 +270,7 @@ ExitCode run_sweep(const SweepRequest& request, const RunCase& run_case, std::os
       fs::absolute(cases::case_file(request.case_path)).lexically_normal().parent_path().filename().string();
   const SweepPlan plan{name, sweep_key(request.case_path, request.overrides, table.axes), table.axes};
   const fs::path folder = request.out.empty() ? fs::path("results") / (name + "-sweep") : fs::path(request.out);
+  require_a_case(request, table);
   log_to_terminal(request.verbosity);
   make_sweep_folder(folder);
   remove_abandoned_tables(folder);

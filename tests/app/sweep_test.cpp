@@ -389,6 +389,15 @@ TEST_F(Sweep, AFailedPointIsARowAndTheOthersGoOn) {
             core::ExitCode::numerical);
 }
 
+TEST_F(Sweep, ACaseThatNoPointCanReadIsRefusedBeforeAnythingIsWritten) {
+  EXPECT_THROW((void)sweep("teeth", {"tool.teeth=0, -1"}), cases::CaseError);
+  core::write_file_atomically(case_folder / "case.toml", "this is no TOML");
+  EXPECT_THROW((void)sweep("text", {"tool.teeth=2, 3"}), cases::CaseError);
+  EXPECT_FALSE(fs::exists(folder() / "teeth"));
+  EXPECT_FALSE(fs::exists(folder() / "text"));
+  EXPECT_EQ(runs, 0);
+}
+
 TEST_F(Sweep, OfJobsIsWrittenAndNotComputed) {
   SweepRequest request{case_folder.string(), {"tool.teeth=2:5:1"}, {}, (folder() / "jobs").string(), "", false, -1};
   request.slurm = request.parallel = true;

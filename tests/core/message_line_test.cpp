@@ -26,6 +26,12 @@ TEST(MessageLine, BytesThatAreNoUtf8DoNotReachTheTerminal) {
   EXPECT_EQ(message_line("µ € 😀"), "µ € 😀");
 }
 
+TEST(MessageLine, CharactersThatTurnTheDirectionOfTheTextAreNotObeyed) {
+  EXPECT_EQ(message_line("no case at \"a\u202egnp.b\u2066\u200f\u061c\""), "no case at \"a?gnp.b???\"");
+  EXPECT_EQ(message_line("a\u0085b\u009b2J"), "a?b?2J");
+  EXPECT_EQ(message_line("\u00a0 \u2013 \u202f"), "\u00a0 \u2013 \u202f") << "spaces and dashes are shown";
+}
+
 TEST(MessageLine, OfALongOnePlaceAndRemedyStay) {
   for (std::size_t shift = 0; shift < 2; ++shift) {
     std::string value(shift, 'x');
