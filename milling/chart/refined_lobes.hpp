@@ -24,8 +24,9 @@ struct LineOptions {
 /// The chart with speeds added until every gap of line_gaps() meets the tolerance (or what the error of the two rows
 /// leaves to be gained), then with the `asked` speeds within its range, which do not count as added: points that are
 /// looked at lie on the line. A generation adds speeds to all gaps that miss the tolerance, one where two lobes meet
-/// and up to three where the boundary bends, widest and worst first where most_added is less; its rows share
-/// out among core::thread_count() threads, each with the depth of the line as the one expected, and follow crossings to
+/// and up to three where the boundary bends, widest and worst first where most_added is less, and one to a gap as wide
+/// as those of the even speeds of which the rows of one side alone tell; its rows share out among
+/// core::thread_count() threads, each with the depth of the line as the one expected, and follow crossings to
 /// three times the first one (those of asked speeds as far as options.follow says). Before a speed that is
 /// added, the rows do not depend on `asked`, and never on the number of threads nor on what was kept: here a block is
 /// one row, by the number of rows before its generation and its place therein. Lobes::line tells what was reached.

@@ -103,14 +103,14 @@ Multiplier multiplier_of(const CutAtSpeed& cut, double depth_m, const StabilityO
 }
 
 /// Ends a row without crossings at the depth limit, described by the multiplier there. Where a crossing was missed or
-/// lost (the search ended before the limit without one, or the multiplier is outside of the unit circle) the row ends
-/// at `stable_m`, to which the cut is known to be stable, or where it surely is.
+/// lost (the search ended before the limit without one) the row ends at `stable_m`, to which the cut is known to be
+/// stable, or where it surely is; there, too, where the multiplier is outside of the unit circle.
 void end_without_crossing(LobeRow& row, const CutAtSpeed& cut, double stable_m, const StabilityOptions& options) {
   const bool lost = row.status == StabilityStatus::crossing_missed || row.searched_m < options.depth_limit_m;
   const Multiplier mu = lost ? Multiplier{} : multiplier_of(cut, options.depth_limit_m, options);
   if (lost || mu.modulus > 1.0 + mu.error_estimate) {
     row.status = StabilityStatus::crossing_missed;
-    row.limiting_depth_m = std::max(stable_m, std::min(surely_stable_depth_m(cut), options.depth_limit_m));
+    row.limiting_depth_m = std::max(lost ? stable_m : 0.0, std::min(surely_stable_depth_m(cut), options.depth_limit_m));
     row.error_estimate = 1.0;
     return;
   }
