@@ -29,13 +29,22 @@ std::string read_text(const toml::node& node) {
   return text;
 }
 
+/// " (K: Matrix Market, .sti of CalculiX)": what a key of a file takes, where its meaning tells endings; else "".
+std::string files_taken(const Key& key) {
+  if (key.type != Type::file || key.meaning.find("`.") == std::string_view::npos) return "";
+  std::string meaning(key.meaning);
+  std::erase(meaning, '`');
+  if (meaning.ends_with('.')) meaning.pop_back();
+  return " (" + meaning + ")";
+}
+
 /// A text that names something. An empty one names nothing; it would be taken for a key that is not there. Only where
 /// it is the default is it what a key may say.
 std::string read_name(const toml::node& node, const Key& key) {
   std::string text = read_text(node);
   if (text.empty() && key.fallback != "\"\"")
     throw InputError(std::string(key.type == Type::file ? "names no file" : "is an empty text") +
-                     (key.required ? "; write what is meant" : "; write what is meant, or remove the key"));
+                     "; write what is meant" + files_taken(key) + (key.required ? "" : ", or remove the key"));
   return text;
 }
 

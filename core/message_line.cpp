@@ -1,9 +1,5 @@
 #include "core/message_line.hpp"
 
-#include <algorithm>
-#include <array>
-#include <string_view>
-
 namespace thinwall::core {
 
 namespace {
@@ -20,6 +16,20 @@ bool is_control(char byte) {
   return (code < 0x20 && byte != '\t') || code == 0x7f;
 }
 
+/// The code point of a character of two or three bytes that is whole; of others 0.
+unsigned code_point(const std::string& text, std::size_t at, std::size_t length) {
+  const auto bits = [&](std::size_t i) { return static_cast<unsigned char>(text[at + i]) & 0x3FU; };
+  if (length == 2) return ((bits(0) & 0x1FU) << 6U) | bits(1);
+  return length == 3 ? ((bits(0) & 0x0FU) << 12U) | (bits(1) << 6U) | bits(2) : 0;
+}
+
+/// True of control characters beyond ASCII, and of characters without a width that turn the direction of a text, join
+/// or divide it, or end a line.
+bool is_unseen(unsigned code) {
+  return (code >= 0x80 && code <= 0x9F) || code == 0xAD || code == 0x61C || (code >= 0x200B && code <= 0x200F) ||
+         (code >= 0x2028 && code <= 0x202E) || (code >= 0x2060 && code <= 0x206F) || code == 0xFEFF;
+}
+
 /// The number of bytes of the character that begins at `at`, by the first of them; 1 where it is cut short or begins
 /// with a byte that no character begins with.
 std::size_t character_length(const std::string& text, std::size_t at) {
@@ -31,24 +41,18 @@ std::size_t character_length(const std::string& text, std::size_t at) {
   return length;
 }
 
-/// True of a character that a terminal does not show but obeys: the control characters from U+0080 to U+009F, and those
-/// that turn the direction of the text behind them (Unicode Standard Annex 9, tables 1 and 2).
-bool is_obeyed(std::string_view character) {
-  constexpr std::array<std::string_view, 12> directions{"\u061c", "\u200e", "\u200f", "\u202a", "\u202b", "\u202c",
-                                                        "\u202d", "\u202e", "\u2066", "\u2067", "\u2068", "\u2069"};
-  const bool second_control = character.size() == 2 && character >= "\u0080" && character <= "\u009f";
-  return second_control || std::ranges::find(directions, character) != directions.end();
-}
-
 }  // namespace
 
 std::string printable_text(const std::string& text) {
   std::string shown;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t length = character_length(text, at);
-    const bool is_bad_byte = length == 1 && (is_control(text[at]) || static_cast<unsigned char>(text[at]) >= 0x80);
-    const std::string_view character = std::string_view(text).substr(at, length);
-    shown += is_bad_byte || is_obeyed(character) ? "?" : character;
+    const bool single = length == 1 && (is_control(text[at]) || static_cast<unsigned char>(text[at]) >= 0x80);
+    if (single || is_unseen(code_point(text, at, length))) {
+      shown += '?';
+    } else {
+      shown.append(text, at, length);
+    }
     at += length;
   }
   return shown;

@@ -6,8 +6,8 @@
 namespace thinwall::core {
 
 /// The text as a terminal can show it: "?" stands for each control character but the tab, since they would end the
-/// line, move the cursor or worse, for each character that turns the direction of the text behind it, which would show
-/// another text than the one that is read, and for each byte that is no UTF-8.
+/// line, move the cursor or worse, for each character without a width that turns the direction of the text (U+202E),
+/// joins or divides it, and for each byte that is no UTF-8.
 [[nodiscard]] std::string printable_text(const std::string& text);
 
 /// The message in one line of printable text. Of a message of more than 600 bytes, which repeats a value that no case

@@ -11,6 +11,7 @@
 #include "app/fit/fit_geometry.hpp"
 #include "app/fit/fit_sensors.hpp"
 #include "app/fit/fit_swap.hpp"
+#include "case/schema/physical_range.hpp"
 #include "core/error.hpp"
 #include "core/split.hpp"
 #include "core/units.hpp"
@@ -27,7 +28,10 @@ using identification::Band;
 double frequency(const std::string& text, const std::string& option) {
   try {
     const double hz = core::parse_quantity(text, core::kind::frequency);
-    if (hz > 0.0) return hz;
+    if (hz > 0.0) {
+      cases::require_physical(core::kind::frequency, hz, false);
+      return hz;
+    }
   } catch (const core::InputError& error) {
     throw core::UsageError(option + " \"" + text + "\": " + error.what());
   }
@@ -61,7 +65,7 @@ identification::ResponseFitOptions options_of(const FitRequest& request) {
   if (!request.from.empty()) options.band.from_hz = frequency(request.from, "--from");
   if (!request.to.empty()) options.band.to_hz = frequency(request.to, "--to");
   if (!(options.band.from_hz < options.band.to_hz))
-    throw core::UsageError("--from " + request.from + " is not below --to " + request.to);
+    throw core::UsageError("--from \"" + request.from + "\" is not below --to \"" + request.to + "\"");
   for (const std::string& text : request.left_out) options.left_out.push_back(left_out_band(text));
   if (!request.residues.empty()) {
     const auto residues = core::from_word<identification::Residues>(request.residues);

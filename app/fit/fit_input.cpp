@@ -65,6 +65,19 @@ void require_together(const FitInput& input) {
     throw core::UsageError("--variable does not say what it holds; give --quantity and --unit");
 }
 
+/// Throws UsageError, by the option, for a unit that is none of the quantity and for one that is none of frequency.
+void require_units(const setup::MeasuredFrf& frf) {
+  const auto require = [&](const char* option, const std::string& frequency_unit) {
+    try {
+      (void)io::frf_format(*frf.quantity, frf.unit, frequency_unit);
+    } catch (const core::InputError& error) {
+      throw core::UsageError(std::string(option) + ": " + error.what());
+    }
+  };
+  require("--unit", "Hz");
+  require("--frequency-unit", frf.frequency_unit);
+}
+
 setup::MeasuredFrf source_of(const std::string& word, const FitInput& input) {
   setup::MeasuredFrf frf = named(word);
   frf.variable = input.variable;
@@ -75,6 +88,7 @@ setup::MeasuredFrf source_of(const std::string& word, const FitInput& input) {
     throw core::UsageError("--quantity \"" + input.quantity + "\"; write receptance, mobility or accelerance");
   frf.unit = input.unit;
   frf.frequency_unit = input.frequency_unit.empty() ? "Hz" : input.frequency_unit;
+  require_units(frf);
   return frf;
 }
 

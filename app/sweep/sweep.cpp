@@ -146,35 +146,14 @@ void run_point(const fs::path& folder, const SweepRequest& request, const cases:
   row.figures = sweep_figures(found.summary);
 }
 
-/// The values put over the case at a point.
-std::vector<std::string> overrides_of(const SweepRequest& request, const std::vector<std::string>& values) {
-  std::vector<std::string> overrides = request.overrides;
-  std::ranges::copy(values, std::back_inserter(overrides));
-  return overrides;
-}
-
-/// Throws the CaseError of the first point if no point has a case that can be read, so that a mistake in the case ends
-/// the sweep before anything is written; of a point alone it is a row. Looks at so many points at most.
-void require_a_case(const SweepRequest& request, const SweepTable& table) {
-  constexpr std::size_t most = 50;
-  std::exception_ptr first;
-  for (std::size_t i = 0; i < std::min(most, table.rows.size()); ++i) {
-    try {
-      (void)cases::read_case(request.case_path, overrides_of(request, overrides_at(table.axes, table.rows[i].point)));
-      return;
-    } catch (const cases::CaseError&) {
-      if (!first) first = std::current_exception();
-    }
-  }
-  if (first) std::rethrow_exception(first);
-}
-
 void compute_point(const fs::path& folder, const SweepRequest& request, const SweepPlan& plan, const RunCase& run_case,
                    SweepRow& row) {
   const std::vector<std::string> values = overrides_at(plan.axes, row.point);
+  std::vector<std::string> overrides = request.overrides;
+  std::ranges::copy(values, std::back_inserter(overrides));
   std::string key;
   guard_point(row, [&] {
-    const cases::Case source = cases::read_case(request.case_path, overrides_of(request, values));
+    const cases::Case source = cases::read_case(request.case_path, overrides);
     key = point_key(source);
     if (auto kept = request.fresh ? std::nullopt : kept_point(folder, key)) {
       take(row, std::move(*kept));
@@ -187,6 +166,34 @@ void compute_point(const fs::path& folder, const SweepRequest& request, const Sw
   std::error_code ignored;
   fs::create_directories(folder, ignored);
   write_point(folder, row.number, {plan.key, key, values, row.status, row.exit_code, row.reason, {}});
+}
+
+/// "part.thickness=5 mm, tool.teeth=2".
+std::string values_text(const SweepTable& table, const SweepRow& row) {
+  std::string values;
+  for (const auto& value : overrides_at(table.axes, row.point)) values += (values.empty() ? "" : ", ") + value;
+  return values;
+}
+
+/// Reads the case of every point of the shard before the first is run. Throws InputError that names the first point
+/// whose values make no case, or CaseError where already the first point has nothing wrong but the file itself.
+void require_cases(const SweepRequest& request, const SweepTable& table, const Shard& shard) {
+  bool first = true;
+  for (const SweepRow& row : table.rows) {
+    if (!shard.holds(row.number)) continue;
+    core::check_interrupt();
+    std::vector<std::string> overrides = request.overrides;
+    std::ranges::copy(overrides_at(table.axes, row.point), std::back_inserter(overrides));
+    try {
+      (void)cases::read_case(request.case_path, overrides);
+    } catch (const cases::CaseError& error) {
+      const auto in_file = [](const cases::Problem& problem) { return problem.line > 0; };
+      if (first && std::ranges::all_of(error.problems, in_file)) throw;
+      throw core::InputError("point " + std::to_string(row.number) + " of " + std::to_string(table.rows.size()) + ", " +
+                             values_text(table, row) + ": " + reason_of(error));
+    }
+    first = false;
+  }
 }
 
 void write_tables(const fs::path& folder, const SweepTable& table) {
@@ -206,8 +213,7 @@ ExitCode code_of(const SweepTable& table) {
 
 /// "point 3 of 9: part.thickness=5 mm, about 40 s left".
 void announce(const SweepTable& table, const SweepRow& row, double seconds_left) {
-  std::string values;
-  for (const auto& value : overrides_at(table.axes, row.point)) values += (values.empty() ? "" : ", ") + value;
+  std::string values = values_text(table, row);
   if (seconds_left > 0.0) values += "; about " + duration_text(seconds_left) + " left";
   spdlog::info("point {} of {}: {}", row.number, table.rows.size(), values);
 }
@@ -270,8 +276,8 @@ ExitCode run_sweep(const SweepRequest& request, const RunCase& run_case, std::os
       fs::absolute(cases::case_file(request.case_path)).lexically_normal().parent_path().filename().string();
   const SweepPlan plan{name, sweep_key(request.case_path, request.overrides, table.axes), table.axes};
   const fs::path folder = request.out.empty() ? fs::path("results") / (name + "-sweep") : fs::path(request.out);
-  require_a_case(request, table);
   log_to_terminal(request.verbosity);
+  require_cases(request, table, shard);
   make_sweep_folder(folder);
   remove_abandoned_tables(folder);
   if (std::error_code ignored; request.fresh) fs::remove_all(shared_parts(folder), ignored);

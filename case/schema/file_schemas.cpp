@@ -17,15 +17,15 @@ constexpr Section joint_sections[] = {
 constexpr Key joint_keys[] = {
     Key{"joints[].name", Type::text, kind::number, "", any, "", "Name of the joint in the URDF.", required},
     Key{"joints[].stiffness", Type::quantity, kind::torsional_stiffness, "", positive, "", "Of the gearbox of a joint that turns."},
-    Key{"joints[].damping", Type::quantity, kind::torsional_damping, "0", not_negative, "", "Beside it."},
+    Key{"joints[].damping", Type::quantity, kind::torsional_damping, "0", damper, "", "Beside it."},
     Key{"joints[].linear_stiffness", Type::quantity, kind::stiffness, "", positive, "", "Of the drive of a joint that slides."},
-    Key{"joints[].linear_damping", Type::quantity, kind::damping, "0", not_negative, "", "Beside it."},
+    Key{"joints[].linear_damping", Type::quantity, kind::damping, "0", damper, "", "Beside it."},
     Key{"joints[].angle", Type::quantity, kind::angle, "", any, "", "The joint stands still at this angle, on the chain or beside it. Joints beside the chain stand at 0, or at the limit nearest to it, if not given."},
     Key{"joints[].distance", Type::quantity, kind::length, "", any, "", "The joint, which slides, stands still at this distance."},
-    Key{"joints[].motor_inertia", Type::quantity, kind::inertia, "0", not_negative, "", "Of the rotor about its shaft."},
-    Key{"joints[].gear_ratio", Type::quantity, kind::number, "1", any, "", "Turns of the rotor for one of the joint."},
+    Key{"joints[].motor_inertia", Type::quantity, kind::inertia, "0", inertia_bounds, "", "Of the rotor about its shaft."},
+    Key{"joints[].gear_ratio", Type::quantity, kind::number, "1", gear_ratio, "", "Turns of the rotor for one of the joint."},
     Key{"joints[].servo_stiffness", Type::quantity, kind::torsional_stiffness, "\"inf\"", {0.0, infinity, false, false, true, "\"inf\" for a locked motor"}, "", "Position gain at the joint; `inf` for a locked motor."},
-    Key{"joints[].servo_damping", Type::quantity, kind::torsional_damping, "0", not_negative, "", "Speed gain at the joint."},
+    Key{"joints[].servo_damping", Type::quantity, kind::torsional_damping, "0", damper, "", "Speed gain at the joint."},
 };
 constexpr Section expectation_sections[] = {
     Section{"expect[]", "One figure of summary.json: `value` with `tolerance` or `relative`, or a bound.", ""},

@@ -34,6 +34,14 @@ inline constexpr Bounds radial_bounds{0.0, 1e12, false, false, false, "for N/mm^
 
 inline constexpr Bounds uncertainty{0.0,   1.0,   false,
                                     false, false, "a standard uncertainty relative to the value: 5 % is 0.05"};
+inline constexpr Bounds damper{0.0, 1e12, false, false, false, ""};
+inline constexpr Bounds decay_rate{0.0, 1e9, false, false, false, ""};
+inline constexpr Bounds inertia_bounds{0.0, 1e9, false, false, false, "for g mm^2 write the unit: \"5 g mm^2\""};
+inline constexpr Bounds inertia_product{-1e9, 1e9, false, false, false, "for g mm^2 write the unit: \"5 g mm^2\""};
+inline constexpr Bounds gear_ratio{-1e6, 1e6, false, false, false, "negative where the joint turns against the motor"};
+inline constexpr Bounds weight_bounds{0.0, 1e9, true, false, false, "1 is usual"};
+inline constexpr Bounds friction_bounds{0.0, 100.0, false, false, false, "0.3 is usual"};
+inline constexpr Bounds posture_value{-1e9, 1e9, false, false, false, ""};
 inline constexpr bool required = true;
 
 /// The words of lobes.method.

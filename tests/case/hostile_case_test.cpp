@@ -194,9 +194,15 @@ TEST(HostileCase, APartOfAnEmptyNameIsNoDataFile) {
   const std::string part =
       "[part]\nfile = \"\"\nunit = \"mm\"\n[part.material]\nyoungs_modulus = \"71 GPa\"\npoisson_ratio = 0.33\n"
       "density = \"2810 kg/m^3\"\n";
-  EXPECT_EQ(refusal(part), "case.toml:2:8: part.file: names no file; write what is meant, or remove the key");
+  EXPECT_EQ(refusal(part),
+            "case.toml:2:8: part.file: names no file; write what is meant (Surface of the part: .stl, .off, .obj, "
+            ".ply, .3mf, .glb, .gltf, "
+            ".step; or its mesh: .msh, .inp, .vtu), or remove the key");
   const std::string matrices = "[part]\nunit = \"mm\"\nmass_unit = \"t\"\n[part.matrices]\nstiffness = \"\"\n";
-  EXPECT_EQ(refusal(matrices), "case.toml:5:13: part.matrices.stiffness: names no file; write what is meant");
+  EXPECT_EQ(refusal(matrices),
+            "case.toml:5:13: part.matrices.stiffness: names no file; write what is meant (K: Matrix Market, .sti of "
+            "CalculiX, "
+            "Abaqus, DMIG, OP2, OP4, MAT, NetCDF)");
   const std::string tool =
       "[tool]\nteeth = 2\ndiameter = \"10 mm\"\n[[tool.measured]]\nresponse = \"x\"\nforce = \"x\"\nfile = \"\"\n"
       "quantity = \"receptance\"\nunit = \"um/N\"\n";

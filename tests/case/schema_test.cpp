@@ -99,6 +99,17 @@ TEST(Schema, EveryKeyIsDocumentedWithMeaningUnitRangeAndDefault) {
   }
 }
 
+TEST(Schema, NoNumberOfACaseOrOfJointsIsWithoutAnUpperBound) {
+  const auto is_number = [](const Key& key) {
+    return key.type == Type::quantity || key.type == Type::quantities || key.type == Type::integer ||
+           key.type == Type::vector;
+  };
+  for (const Schema* schema : {&case_schema(), &joints_schema()}) {
+    for (const Key& key : schema->keys)
+      if (is_number(key)) EXPECT_THROW(require_within_bounds(key, 1e300), core::InputError) << key.path;
+  }
+}
+
 // The page is printed from the table; with THINWALL_WRITE_DOCS set the test writes it instead.
 TEST(Schema, TheDocumentedKeysAreTheKeysOfTheTable) {
   const std::filesystem::path page = std::filesystem::path(THINWALL_SOURCE_DIR) / "docs" / "case-file.md";

@@ -37,7 +37,7 @@ SETTINGS = ("tool.teeth", "=", "=3", "tool.teeth=", "tool..teeth=3", ".teeth=3",
             "tool.modes[0.stiffness=3", "tool.modes[1e9].stiffness=3", "tool[0].teeth=3", "tool teeth=3", "\x1b=3", "tool.teeth=3\n[a]\nb=3",
             "tool.teeth=3]", "tool.teeth=[", "tool.teeth={", 'tool.teeth="', "tool.teeth='''", "w" * 5000 + "=3", "tool.teeth=#", "tool.teeth==3")
 GRIDS = ("tool.teeth", "tool.teeth=", "tool.teeth=1:2", "tool.teeth=1:9:0", "tool.teeth=9:1:1", "tool.teeth=1:9:-1", "tool.teeth=1:2:3:4",
-         "tool.teeth=nan:2:1", "tool.teeth=1:1e300:1", "tool.teeth=1:2:1e-300", "tool.teeth=,", "tool.teeth=2,,3", "unheard.of=1,2",
+         "tool.teeth=nan:2:1", "tool.teeth=1:1e300:1", "tool.teeth=1:2:1e-300", "tool.teeth=,", "tool.teeth=2,,3", "tool.teeth=2,0", "tool.teeth=0:2:1", "unheard.of=1,2",
          "tool.diameter=1 mm:2 kg:1 mm")
 
 
@@ -176,6 +176,17 @@ def others(scratch):
         for what, place in places[1 if name == "report" else 0:]:  # a file that is there is written anew
             yield Input(f"{name}: {option} is {what}", [*without(RIGHT[name], "--out"), option, place], AT, {},
                         (place[:40] or option, option), True, (2, 3, 4))
+    yield Input("reduce: ranks of no case", ["reduce", "nowhere", "--ranks", "2", "-o", "new"], AT, {}, ("nowhere",), True, (3,))
+    yield Input("sweep: a file that is not TOML", ["sweep", "hostile.toml", "tool.teeth=2,3", "--out", "new"], AT,
+                {"hostile.toml": b"once upon a time\n"}, ("hostile.toml",), True, (3,))
+    frf = ["tip.csv", "--quantity", "accelerance", "-o", "new"]
+    for option, words in (("--unit", ["fit", *frf, "--unit", "furlong"]), ("--unit", ["fit", *frf, "--unit", "m/N"]),
+                          ("--frequency-unit", ["fit", *frf, "--unit", "m/s^2/N", "--frequency-unit", "parsec"]),
+                          ("--from", ["fit", *frf, "--unit", "m/s^2/N", "--from", "parsec"]),
+                          ("--from", ["fit", *frf, "--unit", "m/s^2/N", "--from", "1e300"]),
+                          ("--of", ["animate", "results", "--of", "nothing"]),
+                          ("--template", ["init", "new", "--template", "unheard_of"])):
+        yield Input(f"{words[0]}: {option} {words[-1]} is told by the option", words, AT, {}, (option,), True, (2, 3))
     for grid in GRIDS:
         yield Input(f"sweep: {grid}", ["sweep", "cases/ding-2010", grid, *SMALL, "--out", "new"], AT, {},
                     (grid, grid.partition("=")[0]), True, (2, 3))

@@ -4,6 +4,7 @@ import dataclasses
 import os
 import signal
 import subprocess
+import unicodedata
 
 CODES = {0: "done", 2: "usage", 3: "invalid case", 4: "unreadable data", 5: "numerical failure", 6: "expectation missed"}
 CRASH_WORDS = ("internal error", "terminate called", "Sanitizer", "runtime error:", "Assertion", "std::", "bad_alloc")
@@ -116,6 +117,8 @@ def wrong_lines(answer):
         found.append(f"a line of more than {LONGEST_LINE} bytes")
     if any(byte < 32 and byte not in b"\t\n" or byte == 127 for byte in answer.err):
         found.append("control characters")
+    if any(unicodedata.category(letter) in ("Cc", "Cf") and letter not in "\t\n" for letter in answer.err.decode("utf-8", "replace")):
+        found.append("characters that are not seen")
     try:
         answer.err.decode("utf-8")
     except UnicodeDecodeError:
