@@ -146,15 +146,16 @@ PartitionName=main Nodes=ALL Default=YES MaxTime=INFINITE State=UP
         return len(shards)
 
     def jobs(self):
-        """The jobs that are not over; those that wait after a restart are told not to, two seconds later: one that
-        begins within the second of its end has the credential that was revoked then, and is lost."""
+        """The jobs that are not over; those that wait after a restart are told not to, eight seconds later: one that
+        begins within the second of its end has the credential that was revoked then, and is lost, and on a loaded
+        machine that end comes some seconds after the queue shows the job as waiting."""
         queue = self.run("squeue", "-h", "-r", "-o", "%i %t %r")
         lines = queue.stdout.splitlines() if queue.returncode == 0 else ["? ? the controller does not answer"]
         for line in lines:
             number, state, reason = line.split(maxsplit=2)
             if state != "PD" or reason != "BeginTime":
                 continue
-            if time.monotonic() - self.seen.setdefault(number, time.monotonic()) > 2.0:
+            if time.monotonic() - self.seen.setdefault(number, time.monotonic()) > 8.0:
                 self.run("scontrol", "update", f"jobid={number}", "StartTime=now")
                 del self.seen[number]
         return lines
