@@ -58,7 +58,8 @@ void add_speeds(const LineGap& gap, const LobeRow& left, const LobeRow& right, d
 /// True if a gap needs no speed: its line is near enough to the boundary, and no rows of one side alone, which know of
 /// no step on the other, tell so of a gap as wide as those of the even speeds.
 bool suffices(const LineGap& gap, double width_rpm, double even_rpm, double wanted) {
-  return gap.error <= wanted && !(gap.one_sided && width_rpm > 0.75 * even_rpm);
+  constexpr double not_yet_halved = 0.75;  // of an even gap: between a whole and half of one
+  return gap.error <= wanted && !(gap.one_sided && width_rpm > not_yet_halved * even_rpm);
 }
 
 /// The speeds of the next generation, at most so many; `even_rpm` is the width of the widest gap before the first.

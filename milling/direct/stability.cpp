@@ -108,7 +108,7 @@ Multiplier multiplier_of(const CutAtSpeed& cut, double depth_m, const StabilityO
 void end_without_crossing(LobeRow& row, const CutAtSpeed& cut, double stable_m, const StabilityOptions& options) {
   const bool lost = row.status == StabilityStatus::crossing_missed || row.searched_m < options.depth_limit_m;
   const Multiplier mu = lost ? Multiplier{} : multiplier_of(cut, options.depth_limit_m, options);
-  if (lost || mu.modulus > 1.0 + mu.error_estimate) {
+  if (lost || !(mu.modulus <= 1.0 + mu.error_estimate)) {
     row.status = StabilityStatus::crossing_missed;
     row.limiting_depth_m = std::max(lost ? stable_m : 0.0, std::min(surely_stable_depth_m(cut), options.depth_limit_m));
     row.error_estimate = 1.0;

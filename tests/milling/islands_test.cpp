@@ -94,6 +94,7 @@ TEST(DepthLimit, ALobeThatIsPassedWithinAStepOfTheSearchIsFound) {
   for (const double rpm : {3118.0, 3120.0, 3122.0}) {
     const CutAtSpeed at_speed = cut_at_speed(cut.structure, cut.process, rpm);
     for (const double expected_mm : {0.0, 0.3, 0.6, 1.5}) {
+      options.expected_depth_m.reset();
       if (expected_mm > 0.0) options.expected_depth_m = 1e-3 * expected_mm;
       const LobeRow row = limiting_depth(cut.structure, cut.process, rpm, options);
       EXPECT_EQ(row.status, StabilityStatus::converged) << rpm << " rpm, expected " << expected_mm << " mm";
