@@ -178,8 +178,8 @@ int unstable(const DiscreteCut& d, double depth_m) {
   return static_cast<int>((found->cwiseAbs().array() > 1.0).count());
 }
 
-bool clearly_unstable(const DiscreteCut& d, double depth_m) {
-  constexpr double tolerance = 1e-6, clearly = 1.001;
+bool exceeds(const DiscreteCut& d, double depth_m, double modulus) {
+  constexpr double tolerance = 1e-6;
   const Eigen::MatrixXd map = period_map(d.loop, depth_m);
   if (map.allFinite()) {
     const auto product = [&map](const Eigen::Ref<const Eigen::VectorXd>& in, Eigen::Ref<Eigen::VectorXd> out) {
@@ -187,9 +187,10 @@ bool clearly_unstable(const DiscreteCut& d, double depth_m) {
       out.noalias() = map * in;
     };
     const DominantEigenvalue largest = dominant_eigenvalue(product, map.rows(), tolerance);
-    if (largest.converged) return std::abs(largest.value) > clearly;
+    if (largest.converged) return std::abs(largest.value) > modulus;
   }
-  return unstable(d, depth_m) > 0;
+  const std::optional<Eigen::VectorXcd> found = found_multipliers(d, depth_m);
+  return !found || found->cwiseAbs().maxCoeff() > modulus;
 }
 
 bool stable(const DiscreteCut& d, double depth_m) {

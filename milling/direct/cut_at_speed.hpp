@@ -73,10 +73,10 @@ struct DiscreteCut {
 /// chatter grows within a period by more than the digits of a double: the cut is far from stable there.
 [[nodiscard]] int unstable(const DiscreteCut& d, double depth_m);
 
-/// True if the largest multiplier lies outside of the unit circle by a thousandth at least: by Arnoldi's process on the
-/// map (dominant_eigenvalue.hpp), which takes some fifty products with it in place of all eigenvalues, and by the count
-/// where that does not settle.
-[[nodiscard]] bool clearly_unstable(const DiscreteCut& d, double depth_m);
+/// True if the largest multiplier exceeds a modulus: by Arnoldi's process on the map (dominant_eigenvalue.hpp), which
+/// takes some fifty products with it in place of all eigenvalues, and by multipliers() where that does not settle. Also
+/// true where multipliers() would fail.
+[[nodiscard]] bool exceeds(const DiscreteCut& d, double depth_m, double modulus);
 
 /// True if no multiplier lies outside of the unit circle: by powers_vanish(), or where that cannot tell by the count.
 [[nodiscard]] bool stable(const DiscreteCut& d, double depth_m);
