@@ -105,22 +105,25 @@ struct DepthWeights {
   Eigenpair pair;
   complex<double> factor;
   double last_rad_s = 0.0;                ///< of the lines
-  std::vector<HarmonicWeight> harmonics;  ///< up to twice the last line
+  std::vector<HarmonicWeight> harmonics;  ///< up to twice the last line, or beyond the frequency of chatter
 };
 
-/// The weights at a crossing; none for an eigenvalue of ill condition.
+/// The weights at a crossing of a frequency of chatter; none for an eigenvalue of ill condition. A fit may have a pole
+/// of its own far above the lines, and a crossing that is its resonance hangs on what the fits say there.
 std::optional<DepthWeights> depth_weights(const CrossingGrid& grid, const FittedStructure& structure,
-                                          const Crossing& crossing) {
+                                          const Crossing& crossing, double chatter_frequency_hz) {
+  constexpr double just_beyond = 1.1;
   const double theta = crossing.theta_rad, w = crossing.depth_m;
   const Eigen::VectorXd& hz = structure.lines.samples.frequency_hz;
   try {
     DepthWeights weights{
         eigenpair_near(grid.gain(structure.all.remainder), theta, 1.0 / w), 0.0, 2.0 * pi * hz(hz.size() - 1), {}};
     const Eigenpair& pair = weights.pair;
+    const double highest_rad_s = std::max(2.0 * weights.last_rad_s, just_beyond * 2.0 * pi * chatter_frequency_hz);
     weights.factor = w * depth_along(pair, theta) / (pair.left.transpose() * pair.right).value();
     if (!std::isfinite(std::abs(weights.factor))) return std::nullopt;
     weights.harmonics =
-        gain_weights(2.0 * weights.last_rad_s, grid.grid(), grid.spindle_speed_rpm(), theta, pair.left, pair.right);
+        gain_weights(highest_rad_s, grid.grid(), grid.spindle_speed_rpm(), theta, pair.left, pair.right);
     return weights;
   } catch (const core::NumericalError&) {
     return std::nullopt;
@@ -165,7 +168,7 @@ Eigen::Matrix3cd receptance_of(const Fit& fit, double omega) {
 ///
 ///     Δν = −(Σ_k W_k : (ΔG(ω_k) − ΔR) + W_static : ΔR) / lᵀ r,      Δw/w = −w Re [(1 + i Re ν_θ/Im ν_θ) Δν]
 ///
-/// Harmonics beyond twice the last line are left out, where the fits differ little from ΔR.
+/// Harmonics beyond those of the weights are left out, where the fits differ little from ΔR.
 Eigen::ArrayXd first_order_changes(const CrossingGrid& grid, const Crossing& crossing, const Fit& of_all,
                                    const Fits& fits, const DepthWeights& weights) {
   const Eigen::Matrix3cd of_static =
@@ -310,7 +313,7 @@ void follow_to_lines(const FittedStructure& structure, const CutAtSpeed& cut, Lo
     point.error_estimate = 1.0;
     return;
   }
-  const std::optional<DepthWeights> weights = depth_weights(grid, structure, by_lines);
+  const std::optional<DepthWeights> weights = depth_weights(grid, structure, by_lines, point.chatter_frequency_hz);
   const double change = by_lines.depth_m / by_poles.depth_m;
   point.depth_m *= change;
   point.error_estimate +=

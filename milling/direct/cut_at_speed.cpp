@@ -111,7 +111,8 @@ GainOnCircle gain_of(const DiscreteCut& d) {
 double fastest_that_matters(const CutAtSpeed& cut, double stiffness, double depth_m) {
   const Eigen::ArrayXd gains = loop_gains(cut, stiffness, depth_m);
   if (gains.size() == 0) return 0.0;  // all that yields is a static compliance
-  return fastest_of(cut, gains, std::min(0.05 * gains.maxCoeff(), 0.5));
+  // A mode alone chatters where its gain exceeds 2, and one that two harmonics of a short cut meet where it exceeds 1.
+  return fastest_of(cut, gains, 0.5 * std::min(gains.maxCoeff(), 1.0));
 }
 
 Resolution resolving(const CutAtSpeed& cut, double depth_m) {

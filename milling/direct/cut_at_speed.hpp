@@ -35,8 +35,8 @@ struct DiscreteCut {
 [[nodiscard]] GainOnCircle gain_of(const DiscreteCut& d);
 
 /// Elements of at most 14 rad, and nodes for the phase, of the fastest mode that matters: every mode that could
-/// regenerate at this depth, with loop gain 2 w ‖D̄‖ ‖φ‖ ‖b‖ / |Re λ| of at least a half, and any with a twentieth of
-/// the highest resonance. A grid that does not see a mode would call it stable.
+/// regenerate at this depth, with loop gain 2 w ‖D̄‖ ‖φ‖ ‖b‖ / |Re λ| of at least a half, or half of the highest one if
+/// that is less than 1. A grid that does not see a mode would call it stable.
 [[nodiscard]] Resolution resolving(const CutAtSpeed& cut, double depth_m);
 
 /// |λ| of that mode, rad/s; `stiffness` is the norm of the mean directional matrix, N/m².
