@@ -37,11 +37,11 @@ void follow_without_other_fits(FittedStructure structure, const CutAtSpeed& cut,
 ///
 ///     1 − min(w (1 − e), w − 2 max |w − w_half|)/limit,
 ///
-/// with the depth w of the first crossing beyond and its estimate e, and that of the fits to every second line, each up
-/// to half as deep again as the limit; a fit without a crossing has that depth. 1 where a row is not known. Beside a
-/// nose, where two eigenvalues nearly meet, a crossing that is followed to another fit may be lost, which makes e at
-/// least 1 though the rows of all fits agree. Without noise, rows tell then, that of the modes within the lines, too,
-/// and e holds what they do not; the changes by both are taken off w then, too.
+/// with the depth w of a first crossing beyond (or of one within a tenth of it) and its estimate e, and that of the
+/// fits to every second line, each up to half as deep again as the limit; a fit without a crossing has that depth. 1
+/// where a row is not known. Beside a nose, where two eigenvalues nearly meet, a crossing that is followed to another
+/// fit may be lost, which makes e at least 1 though the rows of all fits agree. Without noise, rows tell then, that of
+/// the modes within the lines, too, and e holds what they do not; the changes by both are taken off w then, too.
 double open_by_depth(const FittedStructure& structure, const CutAtSpeed& cut, const StabilityOptions& options) {
   StabilityOptions beyond = options;
   beyond.depth_limit_m *= looked_at;
@@ -66,17 +66,18 @@ double open_by_depth(const FittedStructure& structure, const CutAtSpeed& cut, co
   };
   const double by_halves_m = 2.0 * change_by_m({&structure.even, &structure.odd});
   double least_m = by_all_m - by_halves_m;
-  if (!row.crossings.empty()) {
-    LobePoint first = row.crossings.front();
+  for (const LobePoint& by_poles : row.crossings) {
+    if (by_poles.unstable_change < 0) continue;
+    LobePoint point = by_poles;
     double apart_m = 0.0;  // what the estimate lacks, where the crossing was lost on the way to another fit
-    follow_to_lines(structure, cut, first);
-    if (first.error_estimate >= 1.0 && structure.without.empty()) {
+    follow_to_lines(structure, cut, point);
+    if (point.error_estimate >= 1.0 && structure.without.empty()) {
       apart_m = by_halves_m + change_by_m({&structure.within});
-      follow_without_other_fits(structure, cut, first = row.crossings.front());
+      follow_without_other_fits(structure, cut, point = by_poles);
     }
-    const double first_m = first.depth_m * (1.0 - first.error_estimate) - apart_m;
-    if (!std::isfinite(first_m)) return 1.0;  // a comparison would pass it over
-    least_m = std::min(least_m, first_m);
+    const double point_m = point.depth_m * (1.0 - point.error_estimate) - apart_m;
+    if (!std::isfinite(point_m)) return 1.0;  // a comparison would pass it over
+    least_m = std::min(least_m, point_m);
   }
   if (!std::isfinite(least_m)) return 1.0;
   return 1.0 - least_m / options.depth_limit_m;

@@ -258,6 +258,28 @@ std::vector<double> with_peaks(std::vector<double> stops, const SampledReceptanc
   return stops;
 }
 
+/// Follows the crossings of a row that bound a stable range to the lines, and those that may be the first by them:
+/// others, while more multipliers are outside, change no limit and stay where the poles have them. Where one beyond the
+/// first may be less deep than that, the estimate of the first grows to the depth that it may have.
+void follow_crossings(const FittedStructure& structure, const CutAtSpeed& cut, LobeRow& row) {
+  if (row.crossings.empty()) return;
+  constexpr double may_be_first = 1.3;  // times the first of the poles, as near_crossing.cpp looks
+  const double first_m = row.crossings.front().depth_m;
+  int outside = 0;
+  for (LobePoint& point : row.crossings) {
+    const bool bounds = outside == 0 || outside + point.unstable_change == 0;
+    const bool may_be = point.unstable_change > 0 && point.depth_m <= may_be_first * first_m;
+    outside += point.unstable_change;
+    if (bounds || may_be) follow_to_lines(structure, cut, point);
+  }
+  std::ranges::stable_sort(row.crossings, {}, &LobePoint::depth_m);
+  LobePoint& first = row.crossings.front();
+  double least_m = first.depth_m * (1.0 - first.error_estimate);
+  for (const LobePoint& point : row.crossings)
+    if (point.unstable_change > 0) least_m = std::min(least_m, point.depth_m * (1.0 - point.error_estimate));
+  first.error_estimate = std::max(first.error_estimate, 1.0 - least_m / first.depth_m);
+}
+
 /// Adds the first crossing that poles and remainder together have below the limit of a row from the poles, if there is
 /// one: a remainder as large as a mode has crossings of its own, and the poles' row alone would call unstable cuts
 /// stable.
@@ -329,14 +351,7 @@ LobeRow row_by_lines(const FittedStructure& structure, const MillingProcess& pro
   const bool much_left = leave_much(structure);
   CutAtSpeed cut = cut_at_speed(structure.all.poles, process, spindle_speed_rpm);
   if (much_left) cut.yielding = Eigen::Matrix3d::Identity();  // the remainder may move where the poles do not
-  // A crossing while other multipliers are outside changes no limit, and stays where the poles have it.
-  int outside = 0;
-  for (LobePoint& point : row.crossings) {
-    const bool bounds = outside == 0 || outside + point.unstable_change == 0;
-    outside += point.unstable_change;
-    if (bounds) follow_to_lines(structure, cut, point);
-  }
-  std::ranges::stable_sort(row.crossings, {}, &LobePoint::depth_m);
+  follow_crossings(structure, cut, row);
   if (row.at_limit) compare_at_limit(structure, cut, options, row);
   take_limit_from_crossings(row);
   if (much_left) add_crossing_of_remainder(structure, cut, row.limiting_depth_m, row);
