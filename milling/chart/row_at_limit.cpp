@@ -37,11 +37,12 @@ void follow_without_other_fits(FittedStructure structure, const CutAtSpeed& cut,
 ///
 ///     1 − min(w (1 − e), w − 2 max |w − w_half|)/limit,
 ///
-/// with the depth w of a first crossing beyond (or of one within a tenth of it) and its estimate e, and that of the
-/// fits to every second line, each up to half as deep again as the limit; a fit without a crossing has that depth. 1
-/// where a row is not known. Beside a nose, where two eigenvalues nearly meet, a crossing that is followed to another
-/// fit may be lost, which makes e at least 1 though the rows of all fits agree. Without noise, rows tell then, that of
-/// the modes within the lines, too, and e holds what they do not; the changes by both are taken off w then, too.
+/// with the depth w of the first crossing beyond, or of a Hopf crossing within a tenth of that, and its estimate e, and
+/// that of the fits to every second line, each up to half as deep again as the limit; a fit without a crossing has that
+/// depth. 1 where a row is not known. Beside a nose, where two eigenvalues nearly meet, a crossing that is followed to
+/// another fit may be lost, which makes e at least 1 though the rows of all fits agree. Without noise, rows tell then,
+/// that of the modes within the lines, too, and e holds what they do not; the changes by both are taken off w then,
+/// too.
 double open_by_depth(const FittedStructure& structure, const CutAtSpeed& cut, const StabilityOptions& options) {
   StabilityOptions beyond = options;
   beyond.depth_limit_m *= looked_at;
@@ -67,7 +68,9 @@ double open_by_depth(const FittedStructure& structure, const CutAtSpeed& cut, co
   const double by_halves_m = 2.0 * change_by_m({&structure.even, &structure.odd});
   double least_m = by_all_m - by_halves_m;
   for (const LobePoint& by_poles : row.crossings) {
-    if (by_poles.unstable_change < 0) continue;
+    // Beside the first, flips and folds are left to widen_for_near_crossings().
+    const bool other_lobe = by_poles.unstable_change > 0 && by_poles.kind == Bifurcation::hopf;
+    if (&by_poles != &row.crossings.front() && !other_lobe) continue;
     LobePoint point = by_poles;
     double apart_m = 0.0;  // what the estimate lacks, where the crossing was lost on the way to another fit
     follow_to_lines(structure, cut, point);

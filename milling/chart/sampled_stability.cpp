@@ -109,7 +109,7 @@ struct DepthWeights {
 };
 
 /// The weights at a crossing of a frequency of chatter; none for an eigenvalue of ill condition. A fit may have a pole
-/// of its own far above the lines, and a crossing that is its resonance hangs on what the fits say there.
+/// of its own far above the lines, and a crossing that is its resonance depends on what the fits say there.
 std::optional<DepthWeights> depth_weights(const CrossingGrid& grid, const FittedStructure& structure,
                                           const Crossing& crossing, double chatter_frequency_hz) {
   constexpr double just_beyond = 1.1;
@@ -131,7 +131,7 @@ std::optional<DepthWeights> depth_weights(const CrossingGrid& grid, const Fitted
 }
 
 /// The root mean square of a depth's change by modes above the lines, relative: by FittedStructure::unseen, which falls
-/// as 1/f^{3/2}, at each harmonic up to twice the last line, independent from one to the next. Entries of one harmonic
+/// as 1/f^{3/2}, at each harmonic of the weights, independent from one to the next. Entries of one harmonic
 /// change together, as by one mode. 1 where the weights are not known.
 double change_by_unseen(const FittedStructure& structure, const std::optional<DepthWeights>& weights) {
   if (structure.unseen.isZero(0.0)) return 0.0;
@@ -258,26 +258,29 @@ std::vector<double> with_peaks(std::vector<double> stops, const SampledReceptanc
   return stops;
 }
 
-/// Follows the crossings of a row that bound a stable range to the lines, and those that may be the first by them:
-/// others, while more multipliers are outside, change no limit and stay where the poles have them. Where one beyond the
-/// first may be less deep than that, the estimate of the first grows to the depth that it may have.
-void follow_crossings(const FittedStructure& structure, const CutAtSpeed& cut, LobeRow& row) {
-  if (row.crossings.empty()) return;
-  constexpr double may_be_first = 1.3;  // times the first of the poles, as near_crossing.cpp looks
-  const double first_m = row.crossings.front().depth_m;
+/// Moves to the lines every crossing that bounds a stable range, and every one so near to the first that it may turn
+/// out to be the first; others change no limit and stay. Returns the estimate of the first: its own, or where a Hopf
+/// crossing beyond may be less deep, the distance to the depth that this may have. (What flips and folds may have
+/// widen_for_near_crossings() tells, for beside a nose they are lost on the way to a fit.)
+double follow_crossings(const FittedStructure& structure, const CutAtSpeed& cut, std::vector<LobePoint>& crossings) {
+  if (crossings.empty()) return 0.0;
+  constexpr double as_deep = 1.3;  // times the first, as widen_for_near_crossings() looks
+  const double near_first_m = as_deep * crossings.front().depth_m;
   int outside = 0;
-  for (LobePoint& point : row.crossings) {
+  for (LobePoint& point : crossings) {
     const bool bounds = outside == 0 || outside + point.unstable_change == 0;
-    const bool may_be = point.unstable_change > 0 && point.depth_m <= may_be_first * first_m;
     outside += point.unstable_change;
-    if (bounds || may_be) follow_to_lines(structure, cut, point);
+    if (bounds || point.depth_m <= near_first_m) follow_to_lines(structure, cut, point);
   }
-  std::ranges::stable_sort(row.crossings, {}, &LobePoint::depth_m);
-  LobePoint& first = row.crossings.front();
-  double least_m = first.depth_m * (1.0 - first.error_estimate);
-  for (const LobePoint& point : row.crossings)
-    if (point.unstable_change > 0) least_m = std::min(least_m, point.depth_m * (1.0 - point.error_estimate));
-  first.error_estimate = std::max(first.error_estimate, 1.0 - least_m / first.depth_m);
+  std::ranges::stable_sort(crossings, {}, &LobePoint::depth_m);
+  const LobePoint& first = crossings.front();
+  double estimate = first.error_estimate;
+  for (const LobePoint& point : crossings) {
+    if (point.kind != Bifurcation::hopf || point.unstable_change < 0 || point.depth_m > near_first_m) continue;
+    const double below = 1.0 - point.depth_m * (1.0 - point.error_estimate) / first.depth_m;
+    if (!(below <= estimate)) estimate = below;  // also one that is no number, which meets no tolerance
+  }
+  return estimate;
 }
 
 /// Adds the first crossing that poles and remainder together have below the limit of a row from the poles, if there is
@@ -351,9 +354,10 @@ LobeRow row_by_lines(const FittedStructure& structure, const MillingProcess& pro
   const bool much_left = leave_much(structure);
   CutAtSpeed cut = cut_at_speed(structure.all.poles, process, spindle_speed_rpm);
   if (much_left) cut.yielding = Eigen::Matrix3d::Identity();  // the remainder may move where the poles do not
-  follow_crossings(structure, cut, row);
+  const double estimate = follow_crossings(structure, cut, row.crossings);
   if (row.at_limit) compare_at_limit(structure, cut, options, row);
   take_limit_from_crossings(row);
+  if (!row.crossings.empty()) row.error_estimate = estimate;
   if (much_left) add_crossing_of_remainder(structure, cut, row.limiting_depth_m, row);
   judge_by_estimate(row, options);
   return row;

@@ -42,9 +42,10 @@ struct FittedStructure {
 [[nodiscard]] FittedStructure beside(FittedStructure structure, const RelativeStructure& poles);
 
 /// The row of a speed. The crossings are those of the fit's poles, found and checked as limiting_depth() of
-/// stability.hpp does. Each that bounds a stable range is then followed, on a grid of its own depth, to where it lies
-/// with the remainder (harmonic_gain()), so that the row is that of the lines less their noise. The estimate of a
-/// crossing adds
+/// stability.hpp does. Each that bounds a stable range, or that the search has found within 1.3 times the first, so
+/// that it may be the first by the lines, is then followed, on a grid of its own depth, to where it lies with the
+/// remainder (harmonic_gain()), so that the row is that of the lines less their noise. The estimate of the limit
+/// reaches to the least depth that a Hopf crossing among them may have. The estimate of a crossing adds
 ///
 ///  - twice the larger change of the depth if every second line alone is known: what their spacing leaves open;
 ///  - its change if the poles above the last line are static, or, if larger, twice its root mean square by modes above
@@ -58,19 +59,20 @@ struct FittedStructure {
 /// It grows by the distance to another crossing that the lines leave open, as beside the nose of a flip lobe
 /// (widen_for_near_crossings() of near_crossing.hpp). A row that misses the tolerance for all this is `data_limited`,
 /// beyond a tenth of the depth `data_insufficient`. A row that is stable up to the depth limit is compared with the
-/// first crossing up to half as deep again, of edges that go on above their height if need be: if that lies at w with
-/// the estimate e, and w (1 − e) is below the limit, the estimate is at least what it is below by, and the row
-/// `data_limited` or `data_insufficient` if that misses the tolerance. So it is by what w − 2 |w − w_h| is below the
-/// limit, w_h being the depth by every second line alone, and by all where one of these rows is not known. An e of 1 or
-/// more without noise, of first order beside a nose, does not count. Edges that cannot go on, as those of a taper that
-/// ends in a point, leave all open if |μ| at the limit may exceed 1 by its estimate and its changes by the fits. Where
-/// the remainder is more than a tenth of the lines, as of a fit that missed modes, CriticalDepths looks for a crossing
-/// of poles and remainder below the row's limit; one that is found is the limit, with an estimate of 1. Any cutter will
-/// do. Throws InputError for a bad process, option or speed, and as require_range(); NumericalError if an
-/// eigen-solution fails. Cost: a row from poles, and for each crossing some ten sums over the harmonics within the
-/// lines, each O(harmonics contacts²), of which all but the first few fall away where nothing remains of the lines, and
-/// the receptance of ten fits at the harmonics; once a row that of widen_for_near_crossings(), which searches the
-/// depths up to the limit again; for a row at the limit three from poles.
+/// first crossing up to half as deep again, and with a Hopf crossing within a tenth of that, of edges that go on above
+/// their height if need be: if one lies at w with the estimate e, and w (1 − e) is below the limit, the estimate is at
+/// least what it is below by, and the row `data_limited` or `data_insufficient` if that misses the tolerance. So it is
+/// by what w − 2 |w − w_h| is below the limit, w_h being the depth by every second line alone, and by all where one of
+/// these rows is not known. An e of 1 or more without noise, of first order beside a nose, does not count. Edges that
+/// cannot go on, as those of a taper that ends in a point, leave all open if |μ| at the limit may exceed 1 by its
+/// estimate and its changes by the fits. Where the remainder is more than a tenth of the lines, as of a fit that missed
+/// modes, CriticalDepths looks for a crossing of poles and remainder below the row's limit; one that is found is the
+/// limit, with an estimate of 1. Any cutter will do. Throws InputError for a bad process, option or speed, and as
+/// require_range(); NumericalError if an eigen-solution fails. Cost: a row from poles, and for each crossing some ten
+/// sums over the harmonics within the lines, each O(harmonics contacts²), of which all but the first few fall away
+/// where nothing remains of the lines, and the receptance of ten fits at the harmonics; once a row that of
+/// widen_for_near_crossings(), which searches the depths up to the limit again; for a row at the limit three from
+/// poles.
 [[nodiscard]] LobeRow limiting_depth(const FittedStructure& structure, const MillingProcess& process,
                                      double spindle_speed_rpm, const StabilityOptions& options);
 

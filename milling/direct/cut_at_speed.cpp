@@ -108,16 +108,15 @@ GainOnCircle gain_of(const DiscreteCut& d) {
           stops_between(d.loop.flow)};
 }
 
-double fastest_that_matters(const CutAtSpeed& cut, double stiffness, double depth_m) {
+double fastest_that_matters(const CutAtSpeed& cut, double stiffness, double depth_m, double share) {
   const Eigen::ArrayXd gains = loop_gains(cut, stiffness, depth_m);
   if (gains.size() == 0) return 0.0;  // all that yields is a static compliance
-  // A mode alone chatters where its gain exceeds 2, and one that two harmonics of a short cut meet where it exceeds 1.
-  return fastest_of(cut, gains, 0.5 * std::min(gains.maxCoeff(), 1.0));
+  return fastest_of(cut, gains, std::min(share * gains.maxCoeff(), 0.5));
 }
 
-Resolution resolving(const CutAtSpeed& cut, double depth_m) {
-  const double phase =
-      phase_in_cut(cut, fastest_that_matters(cut, mean_stiffness(cut.process, depth_m), depth_m), depth_m);
+Resolution resolving(const CutAtSpeed& cut, double depth_m, double share) {
+  const double fastest = fastest_that_matters(cut, mean_stiffness(cut.process, depth_m), depth_m, share);
+  const double phase = phase_in_cut(cut, fastest, depth_m);
   const int elements = std::max(1, static_cast<int>(std::ceil(phase / 14.0)));
   return {elements, static_cast<int>(std::ceil(3.0 + nodes_per_rad * phase / elements))};
 }
@@ -191,7 +190,7 @@ bool exceeds(const DiscreteCut& d, double depth_m, double modulus) {
     if (largest.converged) return std::abs(largest.value) > modulus;
   }
   const std::optional<Eigen::VectorXcd> found = found_multipliers(d, depth_m);
-  return !found || found->cwiseAbs().maxCoeff() > modulus;
+  return !found || (found->cwiseAbs().array() > modulus).any();
 }
 
 bool stable(const DiscreteCut& d, double depth_m) {

@@ -35,12 +35,13 @@ struct DiscreteCut {
 [[nodiscard]] GainOnCircle gain_of(const DiscreteCut& d);
 
 /// Elements of at most 14 rad, and nodes for the phase, of the fastest mode that matters: every mode that could
-/// regenerate at this depth, with loop gain 2 w ‖D̄‖ ‖φ‖ ‖b‖ / |Re λ| of at least a half, or half of the highest one if
-/// that is less than 1. A grid that does not see a mode would call it stable.
-[[nodiscard]] Resolution resolving(const CutAtSpeed& cut, double depth_m);
+/// regenerate at this depth, with loop gain 2 w ‖D̄‖ ‖φ‖ ‖b‖ / |Re λ| of at least a half, and any with a share of the
+/// highest gain, a twentieth, so that the grid serves up to twenty times this depth. A grid that does not see a mode
+/// would call it stable.
+[[nodiscard]] Resolution resolving(const CutAtSpeed& cut, double depth_m, double share = 0.05);
 
 /// |λ| of that mode, rad/s; `stiffness` is the norm of the mean directional matrix, N/m².
-[[nodiscard]] double fastest_that_matters(const CutAtSpeed& cut, double stiffness, double depth_m);
+[[nodiscard]] double fastest_that_matters(const CutAtSpeed& cut, double stiffness, double depth_m, double share = 0.05);
 
 /// The error that a grid may have for the modes that it does not resolve, whose phase in the cut is r > 1 times 1/0.35
 /// rad a node: 0.005 g min(1, e^{10 (r − 1.4)}) of the one for which it is largest, g its loop gain times the share of

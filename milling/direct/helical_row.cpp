@@ -158,8 +158,11 @@ class HelicalSearch {
   HelicalSearch(const CutAtSpeed& cut, std::size_t refinements, const StabilityOptions& options)
       : cut_(cut), refinements_(refinements), first_alone_(options.follow == 1.0) {}
 
+  /// Each depth has a grid of its own, which need not serve deeper ones: a mode with less than this share of the
+  /// highest gain does not chatter here.
   [[nodiscard]] Resolution resolution(double depth_m) const {
-    return finer_by(resolving(cut_, std::min(depth_m, cut_.process.cutter.envelope.height_m)), refinements_);
+    constexpr double share = 0.2;
+    return finer_by(resolving(cut_, std::min(depth_m, cut_.process.cutter.envelope.height_m), share), refinements_);
   }
 
   /// The cut keeps the shape of this depth while its force grows: what crosses the unit circle up to a sixth beyond.
@@ -206,17 +209,14 @@ class HelicalSearch {
     }
   }
 
-  /// True if a multiplier is outside of the circle by more than the error of a grid. A quarter of the elements has the
-  /// largest one to a tenth as a rule, for modes that it does not resolve hardly move in chatter, at a thirtieth of the
-  /// time: deep in an unstable range, where it is far outside, no finer grid is asked.
+  /// True if a multiplier is outside of the circle by more than the error of a grid. A grid of a quarter of the
+  /// elements takes a thirtieth of the time and has the largest multiplier to a tenth as a rule, since modes that it
+  /// does not resolve hardly move in chatter. Where it finds one that is far outside the full grid is not asked.
   [[nodiscard]] bool clearly_unstable(double depth_m) const {
     constexpr double far_outside = 1.25;
-    const Resolution full = resolution(depth_m);
-    const auto exceeds = [&](Resolution r, double modulus) {
-      return milling::exceeds(discrete(cut_, r, depth_m), depth_m, modulus);
-    };
-    const Resolution quarter{(full.elements + 3) / 4, full.nodes};
-    return (coarser(quarter, full) && exceeds(quarter, far_outside)) || exceeds(full, 1.001);
+    const Resolution full = resolution(depth_m), quarter{(full.elements + 3) / 4, full.nodes};
+    if (coarser(quarter, full) && exceeds(discrete(cut_, quarter, depth_m), depth_m, far_outside)) return true;
+    return exceeds(discrete(cut_, full, depth_m), depth_m, 1.001);
   }
 
   /// The first crossing up to a depth, by the shape that the cut has at a depth where it is all but surely stable: a

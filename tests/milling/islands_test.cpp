@@ -158,6 +158,42 @@ void expect_none_is_missed(const RandomCut& cut) {
   for (std::size_t i = 0; i < rpm.size(); ++i) EXPECT_EQ(wrong[i], 0) << where[i];
 }
 
+/// Depths of one speed of a helical cut at which the row's crossings have the cut stable and a count of its multipliers
+/// on a finer grid has not, or the other way round, other than within 1 % of a crossing.
+int helical_disagreements(const RandomCut& cut, double rpm) {
+  constexpr int depths = 40;
+  StabilityOptions options;
+  options.depth_limit_m = cut.deepest_m;
+  const LobeRow row = limiting_depth(cut.structure, cut.process, rpm, options);
+  const CutAtSpeed at_speed = cut_at_speed(cut.structure, cut.process, rpm);
+  int count = 0;
+  for (int i = 1; i <= depths; ++i) {
+    const double depth = row.searched_m * i / depths;
+    int outside = 0;
+    bool near = false;
+    for (const LobePoint& p : row.crossings) {
+      near = near || std::abs(p.depth_m / depth - 1.0) < 0.01;
+      if (p.depth_m < depth) outside += p.unstable_change;
+    }
+    const Resolution fine = finer(finer(resolving(at_speed, depth)));
+    if (!near && (outside > 0) != (unstable(discrete(at_speed, fine, depth), depth) > 0)) ++count;
+  }
+  return count;
+}
+
+TEST(HelicalRow, IsStableWhereACountOfMultipliersSaysSo) {
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    RandomCut cut = random_cut(seed);
+    cut.process.cutter.helices_rad.assign(static_cast<std::size_t>(cut.process.cutter.teeth),
+                                          seed % 2 == 0 ? 0.1 : 0.5);
+    const std::vector<double> rpm = spindle_speeds(cut.slowest_rpm, cut.fastest_rpm, 20);
+    std::vector<int> wrong(rpm.size());
+    core::parallel_for(rpm.size(), [&](std::size_t i) { wrong[i] = helical_disagreements(cut, rpm[i]); });
+    for (std::size_t i = 0; i < rpm.size(); ++i)
+      EXPECT_EQ(wrong[i], 0) << "system " << seed << " at " << rpm[i] << " rpm";
+  }
+}
+
 class Islands : public ::testing::TestWithParam<unsigned> {};
 
 TEST_P(Islands, NoneIsMissed) {

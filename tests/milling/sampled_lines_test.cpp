@@ -175,7 +175,7 @@ TEST(SampledLines, NoDepthIsFurtherOffThanClaimedWhereManyModesLieAboveTheLines)
 
 // All fits of this plate have a pole at 6800 Hz that no mode has, above twice the last line, and a crossing with it a
 // quarter below the true limit.
-TEST(SampledLines, ACrossingAtAPoleFarAboveTheLinesHangsOnWhatTheFitsSayThere) {
+TEST(SampledLines, ACrossingAtAPoleFarAboveTheLinesDependsOnWhatTheFitsSayThere) {
   Draws draw(4);
   for (int i = 0; i < 41; ++i) (void)PlateBeyondLines(draw);
   Tally tally;
@@ -215,8 +215,8 @@ TEST(SampledLines, NoiseIsInTheEstimate) {
   EXPECT_LT(tally.worst, 2.0);
 }
 
-// A lobe that is a hundredth deeper than the first of structure 204 is less certain and may be the first. By the lines
-// of structure 776 another lobe is the first than by the poles of their fit.
+// Structure 204 has a lobe a hundredth deeper than the first that is less certain. Structure 776 has another first lobe
+// by the lines than by the poles of their fit.
 TEST(SampledLines, ALobeThatMayBeFirstIsFollowedToTheLines) {
   Draws draw(3);
   Tally tally;
