@@ -22,7 +22,7 @@ using Fit = FittedStructure::Fit;
 using NearAxis = CriticalDepths::NearAxis;
 
 constexpr double clearly_below = 0.99;
-constexpr double as_deep = 1.3, nearest_looked_at = 0.1;
+constexpr double nearest_looked_at = 0.1;
 
 /// True of the ends of the half circle, where eigenvalues are real or conjugate.
 bool at_end(double theta_rad) {
@@ -47,7 +47,7 @@ bool leads_to(const GainOnCircle& gain, double theta_rad, std::complex<double> n
 /// it the nearest to the axis. Of conjugate ones at the ends of the half circle there is one.
 std::vector<NearAxis> nearest_to_axis(const CriticalDepths& search, const GainOnCircle& gain, double depth_m) {
   constexpr int most = 6;
-  std::vector<NearAxis> near = search.near_axis(as_deep * depth_m, nearest_looked_at);
+  std::vector<NearAxis> near = search.near_axis(may_be_limit * depth_m, nearest_looked_at);
   std::erase_if(near, [](const NearAxis& at) { return at_end(at.theta_rad) && at.nu.imag() < 0.0; });
   std::ranges::sort(near, {}, [](const NearAxis& at) { return off_axis(at.nu); });
   std::vector<NearAxis> others;
@@ -168,7 +168,7 @@ std::vector<std::pair<double, Eigenpair>> on_fine_grid(const GainOnCircle& gain,
   for (const NearAxis& near : nearest) {
     if (auto pair = on_fine_grid(gain, near)) found.emplace_back(near.theta_rad, std::move(*pair));
     else if (at_end(near.theta_rad) && std::ranges::find(ends, near.theta_rad, &NearAxis::theta_rad) == ends.end())
-      std::ranges::copy(near_axis_at(gain, near.theta_rad, as_deep * depth_m, nearest_looked_at),
+      std::ranges::copy(near_axis_at(gain, near.theta_rad, may_be_limit * depth_m, nearest_looked_at),
                         std::back_inserter(ends));
   }
   for (const NearAxis& near : ends) {

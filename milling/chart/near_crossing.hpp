@@ -8,6 +8,9 @@
 
 namespace thinwall::milling {
 
+/// Crossings and eigenvalues up to this many times as deep as the limit may be the limit by the lines.
+inline constexpr double may_be_limit = 1.3;
+
 /// Widens the estimate of a row whose limit is another crossing for what the lines of the structure leave open.
 ///
 /// Just beside the nose of a flip lobe a row has the Hopf crossing above the nose only, while two eigenvalues

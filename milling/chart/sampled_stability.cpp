@@ -264,8 +264,7 @@ std::vector<double> with_peaks(std::vector<double> stops, const SampledReceptanc
 /// widen_for_near_crossings() tells, for beside a nose they are lost on the way to a fit.)
 double follow_crossings(const FittedStructure& structure, const CutAtSpeed& cut, std::vector<LobePoint>& crossings) {
   if (crossings.empty()) return 0.0;
-  constexpr double as_deep = 1.3;  // times the first, as widen_for_near_crossings() looks
-  const double near_first_m = as_deep * crossings.front().depth_m;
+  const double near_first_m = may_be_limit * crossings.front().depth_m;
   int outside = 0;
   for (LobePoint& point : crossings) {
     const bool bounds = outside == 0 || outside + point.unstable_change == 0;

@@ -40,7 +40,7 @@ struct DiscreteCut {
 /// would call it stable.
 [[nodiscard]] Resolution resolving(const CutAtSpeed& cut, double depth_m, double share = 0.05);
 
-/// |λ| of that mode, rad/s; `stiffness` is the norm of the mean directional matrix, N/m².
+/// |λ| of that mode, rad/s; `stiffness` is the norm of the mean directional matrix, N/m², `share` that of resolving().
 [[nodiscard]] double fastest_that_matters(const CutAtSpeed& cut, double stiffness, double depth_m, double share = 0.05);
 
 /// The error that a grid may have for the modes that it does not resolve, whose phase in the cut is r > 1 times 1/0.35

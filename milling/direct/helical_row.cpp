@@ -158,10 +158,10 @@ class HelicalSearch {
   HelicalSearch(const CutAtSpeed& cut, std::size_t refinements, const StabilityOptions& options)
       : cut_(cut), refinements_(refinements), first_alone_(options.follow == 1.0) {}
 
-  /// Each depth has a grid of its own, which need not serve deeper ones: a mode with less than this share of the
-  /// highest gain does not chatter here.
+  /// Each depth has a grid of its own, which need not serve depths of twenty times as much.
   [[nodiscard]] Resolution resolution(double depth_m) const {
-    constexpr double share = 0.2;
+    constexpr double share =
+        0.2;  // a half, as of all modes, where the highest gain is 2.5, as about the first crossing
     return finer_by(resolving(cut_, std::min(depth_m, cut_.process.cutter.envelope.height_m), share), refinements_);
   }
 
@@ -213,10 +213,10 @@ class HelicalSearch {
   /// elements takes a thirtieth of the time and has the largest multiplier to a tenth as a rule, since modes that it
   /// does not resolve hardly move in chatter. Where it finds one that is far outside the full grid is not asked.
   [[nodiscard]] bool clearly_unstable(double depth_m) const {
-    constexpr double far_outside = 1.25;
+    constexpr double far_outside = 1.25, clearly = 1.001;
     const Resolution full = resolution(depth_m), quarter{(full.elements + 3) / 4, full.nodes};
     if (coarser(quarter, full) && exceeds(discrete(cut_, quarter, depth_m), depth_m, far_outside)) return true;
-    return exceeds(discrete(cut_, full, depth_m), depth_m, 1.001);
+    return exceeds(discrete(cut_, full, depth_m), depth_m, clearly);
   }
 
   /// The first crossing up to a depth, by the shape that the cut has at a depth where it is all but surely stable: a

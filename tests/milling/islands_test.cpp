@@ -22,6 +22,20 @@ namespace {
 using testing::random_cut;
 using testing::RandomCut;
 
+/// A depth among the crossings of its row: the multipliers outside of the circle by these, and whether one of them is
+/// within 1 %.
+struct Place {
+  int outside = 0;
+  bool near = false;
+
+  Place(const LobeRow& row, double depth_m) {
+    for (const LobePoint& p : row.crossings) {
+      near = near || std::abs(p.depth_m / depth_m - 1.0) < 0.01;
+      if (p.depth_m < depth_m) outside += p.unstable_change;
+    }
+  }
+};
+
 /// Points of one speed where crossings and multipliers disagree, other than within 1 % of a crossing.
 int disagreements(const RandomCut& cut, double rpm, int depths, std::string& where) {
   StabilityOptions options;
@@ -33,13 +47,8 @@ int disagreements(const RandomCut& cut, double rpm, int depths, std::string& whe
   int count = 0;
   for (int i = 1; i <= depths; ++i) {
     const double depth = cut.deepest_m * i / depths;
-    int outside = 0;
-    bool near = false;
-    for (const LobePoint& p : row.crossings) {
-      near = near || std::abs(p.depth_m / depth - 1.0) < 0.01;
-      if (p.depth_m < depth) outside += p.unstable_change;
-    }
-    if (near || (outside > 0) == (unstable(d, depth) > 0)) continue;
+    const Place place(row, depth);
+    if (place.near || (place.outside > 0) == (unstable(d, depth) > 0)) continue;
     ++count;
     where = std::to_string(rpm) + " rpm, " + std::to_string(depth * 1e3) + " mm, status " + name(row.status);
   }
@@ -169,14 +178,9 @@ int helical_disagreements(const RandomCut& cut, double rpm) {
   int count = 0;
   for (int i = 1; i <= depths; ++i) {
     const double depth = row.searched_m * i / depths;
-    int outside = 0;
-    bool near = false;
-    for (const LobePoint& p : row.crossings) {
-      near = near || std::abs(p.depth_m / depth - 1.0) < 0.01;
-      if (p.depth_m < depth) outside += p.unstable_change;
-    }
+    const Place place(row, depth);
     const Resolution fine = finer(finer(resolving(at_speed, depth)));
-    if (!near && (outside > 0) != (unstable(discrete(at_speed, fine, depth), depth) > 0)) ++count;
+    if (!place.near && (place.outside > 0) != (unstable(discrete(at_speed, fine, depth), depth) > 0)) ++count;
   }
   return count;
 }
