@@ -15,6 +15,7 @@
 #include "study/identification_forecast.hpp"
 #include "study/part/discretisation.hpp"
 #include "study/part/part_forecast.hpp"
+#include "study/rehearsal.hpp"
 
 namespace thinwall::app {
 
@@ -54,7 +55,8 @@ Forecast unrefused_forecast(const cases::Case& source, const std::vector<milling
     study::require_points_hold(source);
     result.part = size_of(source, mesh_limit_s, result);
   }
-  result.lobes = study::forecast_lobes(source, study::forecast_limit_s, points);
+  result.lobes = study::forecast_lobes(source, study::forecast_limit_s, points,
+                                       study::rehearsed_modes(source, result.first_mesh));
   if (!result.refused()) result.simulation = study::forecast_simulation(source);
   return result;
 }

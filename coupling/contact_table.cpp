@@ -40,6 +40,7 @@ double between_rows(const Eigen::VectorXd& x, const Eigen::VectorXd& y, Eigen::I
 }  // namespace
 
 void require_valid(const ContactTable& table) {
+  constexpr double most_n = 1e9, most_n_per_m = 1e18, most_n_s_per_m = 1e12;  // no contact of a machine has more
   std::ostringstream faults;
   const auto begin = [&]() -> std::ostream& { return faults << (faults.tellp() > 0 ? "; " : "") << "contact table: "; };
   const Eigen::Index rows = table.preload.size();
@@ -50,14 +51,17 @@ void require_valid(const ContactTable& table) {
     throw core::InputError(faults.str());
   }
   for (Eigen::Index i = 0; i < rows; ++i) {
-    if (!std::isfinite(table.preload(i)) || (i > 0 && !(table.preload(i) > table.preload(i - 1)))) {
-      begin() << "the preload in row " << i + 1 << " is " << table.preload(i) << " N, but preloads must rise";
+    if (!(std::abs(table.preload(i)) <= most_n) || (i > 0 && !(table.preload(i) > table.preload(i - 1)))) {
+      begin() << "the preload in row " << i + 1 << " is " << table.preload(i) << " N, but preloads must rise, to "
+              << most_n << " at most";
     }
-    if (!(table.stiffness(i) > 0.0 && std::isfinite(table.stiffness(i)))) {
-      begin() << "the stiffness in row " << i + 1 << " is " << table.stiffness(i) << " N/m, but it must be positive";
+    if (!(table.stiffness(i) > 0.0 && table.stiffness(i) <= most_n_per_m)) {
+      begin() << "the stiffness in row " << i + 1 << " is " << table.stiffness(i) << " N/m, but it must be positive, "
+              << most_n_per_m << " at most";
     }
-    if (!(table.damping(i) >= 0.0 && std::isfinite(table.damping(i)))) {
-      begin() << "the damping in row " << i + 1 << " is " << table.damping(i) << " N s/m, but it must not be negative";
+    if (!(table.damping(i) >= 0.0 && table.damping(i) <= most_n_s_per_m)) {
+      begin() << "the damping in row " << i + 1 << " is " << table.damping(i) << " N s/m, but it must be from 0 to "
+              << most_n_s_per_m;
     }
   }
   if (faults.tellp() > 0) throw core::InputError(faults.str());

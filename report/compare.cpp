@@ -207,9 +207,9 @@ void require_results(const std::filesystem::path& folder) {
 }
 
 Comparison compare_results(const std::filesystem::path& left, const std::filesystem::path& right, double tolerance) {
-  if (!(tolerance >= 0.0) || std::isinf(tolerance))
-    throw core::UsageError("--tolerance: " + core::number_text(tolerance) +
-                           " is no relative tolerance; write a number from 0 on, as 1e-6");
+  if (!(tolerance >= 0.0 && tolerance <= 1.0))
+    throw core::UsageError(core::number_text(tolerance) +
+                           " is no relative tolerance; write a number from 0 to 1, as 1e-6");
   Comparer comparer{tolerance, {}};
   comparer.object({""}, read_summary(left), read_summary(right));
   const auto ours = csv_files(left), theirs = csv_files(right);

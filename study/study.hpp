@@ -37,6 +37,7 @@
 #include "study/part/path_models.hpp"
 #include "study/part/solution.hpp"
 #include "study/postures/posture_study.hpp"
+#include "study/rehearsal.hpp"
 #include "study/results.hpp"
 #include "study/run.hpp"
 #include "study/simulation/amplitude_map.hpp"

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "case/schema/physical_range.hpp"
 #include "case/tool_file.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -67,7 +68,9 @@ struct Source {
 
 double diameter_of(const CoefficientsRequest& request) {
   try {
-    return core::parse_quantity(request.diameter, core::kind::length);
+    const double diameter_m = core::parse_quantity(request.diameter, core::kind::length);
+    cases::require_physical(core::kind::length, diameter_m);
+    return diameter_m;
   } catch (const core::InputError& error) {
     throw core::UsageError("--diameter \"" + request.diameter + "\": " + error.what());
   }

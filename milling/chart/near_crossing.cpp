@@ -224,7 +224,7 @@ void widen_for_near_crossings(const FittedStructure& structure, const MillingPro
   const double shape_m = process.cutter.depends_on_depth() ? depth_m : 0.0;
   const DiscreteCut d = discrete(cut, coarse, shape_m);
   const GainOnCircle gain = gain_of(d);
-  CriticalDepths search(gain, CriticalDepths::Eigenvalues::all);
+  CriticalDepths search(gain);
   (void)search.up_to(depth_m);
   const double by_near = growth_by_near(structure, cut, coarse, shape_m, nearest_to_axis(search, gain, depth_m), row);
   double widened = row.error_estimate + by_near;

@@ -12,6 +12,7 @@
 #include "core/interrupt.hpp"
 #include "linalg/complex_eigenvalues.hpp"
 #include "linalg/largest_eigenvalues.hpp"
+#include "linalg/real_eigenvalues.hpp"
 
 namespace thinwall::milling {
 
@@ -30,7 +31,13 @@ void require_found(bool found) {
 
 /// Eigenvalues of −Z.
 Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXcd& Z, double theta) {
+  constexpr Index large = 150;
   if (theta == 0.0 || theta == pi) {
+    if (Z.rows() >= large) {
+      const std::optional<Eigen::VectorXcd> eigenvalues = linalg::real_eigenvalues(Z.real());
+      require_found(eigenvalues.has_value());
+      return -*eigenvalues;
+    }
     const Eigen::EigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd(Z.real()), false);
     require_found(eigen.info() == Eigen::Success);
     return -eigen.eigenvalues();

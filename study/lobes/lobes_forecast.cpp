@@ -23,7 +23,6 @@
 #include "setup/robot_tip.hpp"
 #include "study/lobes/cut_structure.hpp"
 #include "study/lobes/lobes_stage.hpp"
-#include "study/lobes/stand_in.hpp"
 #include "study/support/support_stage.hpp"
 
 namespace thinwall::study {
@@ -36,18 +35,21 @@ struct StandIn {
   double longer = 1.0;
 };
 
-StandIn structure_like(const setup::Setup& source, const milling::ToolFrame& frame) {
-  return {cut_structure(before_identification(source), frame, poles_like(source))};
+/// The structure with a part of these modes, or of modes_like().
+StandIn structure_like(const setup::Setup& source, const std::optional<milling::RelativeStructure>& of_part) {
+  return {cut_structure(before_identification(source), setup::milling_process(source).frame,
+                        poles_like(source, of_part))};
 }
 
 /// The supported part as it is known by its lines: some of them, for a fit takes as long as there are lines.
-StandIn lines_like(const setup::Setup& source, const milling::ToolFrame& frame) {
+StandIn lines_like(const setup::Setup& source, const std::optional<milling::RelativeStructure>& of_part) {
   constexpr Eigen::Index enough = 1000;
   const dynamics::FrequencyAxis axis = frequency_axis(source.response, source, source);
   const Eigen::Index lines = std::min(enough, axis.size());
   milling::SampledStructure felt{{Eigen::VectorXd::LinSpaced(lines, axis.hz(0), axis.hz(axis.size() - 1)), {}},
                                  cut_poles(before_identification(source), nullptr)};
-  const milling::RelativeStructure part = milling::in_tool_axes(modes_like(source), frame);
+  const milling::ToolFrame frame = setup::milling_process(source).frame;
+  const milling::RelativeStructure part = milling::in_tool_axes(of_part ? *of_part : modes_like(source), frame);
   for (const double hz : felt.samples.frequency_hz)
     felt.samples.H.push_back(milling::receptance(part, 2.0 * std::numbers::pi * hz));
   return {milling::fitted_structure(felt, frame), static_cast<double>(axis.size()) / static_cast<double>(lines)};
@@ -72,23 +74,21 @@ Took time_of(const std::function<void()>& work) {
   return took;
 }
 
-/// The mean over ln n of what a row takes, by Simpson's rule from both ends and the middle: even speeds are denser in
-/// it at the top, those that a line adds at the bottom. From the last speed, which is the cheapest as a rule.
-Took mean_row(const std::function<void(double rpm)>& row, double from_rpm, double to_rpm) {
-  constexpr double first_call_s = 0.05;  // what a first call does besides counts in a short one
-  const double middle_rpm = std::sqrt(from_rpm * to_rpm);
-  double weight_left = 1.0;
-  Took mean;
-  for (const double rpm : {to_rpm, middle_rpm, from_rpm}) {
-    Took took = time_of([&] { row(rpm); });
-    if (!took.over && took.seconds < first_call_s) took = time_of([&] { row(rpm); });
-    const double weight = rpm == middle_rpm ? 4.0 / 6.0 : 1.0 / 6.0;
-    mean.seconds += took.seconds * (took.over ? weight_left : weight);
-    mean.over = took.over;
-    if (took.over) return mean;
-    weight_left -= weight;
+/// The mean of what a row takes at speeds that are spread evenly over ln n: even speeds are denser in it at the top,
+/// those that a line adds at the bottom. Rows of one chart differ a hundredfold, for a deep limit needs a fine grid.
+/// From the last speed, which is the cheapest as a rule; no more rows than `enough_s` holds, but three at least.
+Took mean_row(const std::function<void(double rpm)>& row, double from_rpm, double to_rpm, double enough_s) {
+  constexpr double golden = std::numbers::phi - 1.0;  // its multiples, less whole ones, spread evenly
+  constexpr int least = 3, most = 20;
+  Took all;
+  int rows = 0;
+  while (rows < most && !all.over && (rows < least || all.seconds < enough_s)) {
+    const double share = std::fmod(rows++ * golden, 1.0);
+    const Took took = time_of([&] { row(to_rpm * std::pow(from_rpm / to_rpm, share)); });
+    all.seconds += took.seconds;
+    all.over = took.over;
   }
-  return mean;
+  return {all.seconds / rows, all.over};
 }
 
 /// The objection of milling::require_range() against the tool's lines at the speeds that the chart certainly has, the
@@ -109,17 +109,16 @@ std::string refusal_of_lines(const setup::Setup& source, const std::vector<milli
   return "";
 }
 
-using StructureLike = StandIn (*)(const setup::Setup&, const milling::ToolFrame&);
-
 /// The time of so many rows of a structure, on all threads, and of making it; over: at least so much.
-Took time_of_charts(const setup::Setup& source, StructureLike like, double rows, double limit_s) {
+Took time_of_charts(const setup::Setup& source, const std::function<StandIn()>& like, double rows, double limit_s) {
+  constexpr double share_of_limit = 0.15;  // after which no further row is begun
   if (rows == 0.0) return {};
   const setup::LobesOptions& lobes = *source.lobes;
   const milling::MillingProcess process = setup::milling_process(source);
   const milling::MethodOptions options = method_options(lobes);
   const core::TimeLimit limit(limit_s);
   std::optional<StandIn> made;
-  const Took making = time_of([&] { made = like(source, process.frame); });
+  const Took making = time_of([&] { made = like(); });
   if (making.over) return making;
   const auto row = [&](double rpm) {
     if (const auto* sampled = std::get_if<milling::FittedStructure>(&made->structure)) {
@@ -129,7 +128,7 @@ Took time_of_charts(const setup::Setup& source, StructureLike like, double rows,
           ->limiting_depth(rpm, std::nullopt);
     }
   };
-  const Took of_row = mean_row(row, lobes.from_rpm, lobes.to_rpm);
+  const Took of_row = mean_row(row, lobes.from_rpm, lobes.to_rpm, share_of_limit * limit_s);
   return {made->longer * making.seconds + rows * of_row.seconds / core::thread_count(), of_row.over};
 }
 
@@ -160,16 +159,24 @@ ExpectedRows expected_rows(const setup::Setup& source) {
 }
 
 std::optional<LobesForecast> forecast_lobes(const setup::Setup& source, double limit_s,
-                                            const std::vector<milling::OperatingPoint>& points) {
+                                            const std::vector<milling::OperatingPoint>& points,
+                                            const std::optional<StandInModes>& modes) {
   if (!source.lobes || !source.cutting || !source.tool) return std::nullopt;
   const core::Silence forecast_only;
   try {
     LobesForecast result{expected_rows(source), 0.0, false, refusal_of_lines(source, points)};
     if (!result.refusal.empty()) return result;
-    const Took of_poles = time_of_charts(source, structure_like, result.rows.of_structure, limit_s);
-    const Took of_lines = time_of_charts(source, lines_like, result.rows.of_lines, limit_s);
-    result.seconds = of_poles.seconds + of_lines.seconds;
-    result.at_least = of_poles.over || of_lines.over;
+    const auto add = [&](auto like, const std::optional<milling::RelativeStructure>& of_part, double rows) {
+      const Took took = time_of_charts(source, [&] { return like(source, of_part); }, rows, limit_s);
+      result.seconds += took.seconds;
+      result.at_least |= took.over;
+    };
+    const std::optional<milling::RelativeStructure> part = modes ? std::optional(modes->part) : std::nullopt;
+    // Where both are known, half of the rows are those of the supported part, which is stable up to other depths.
+    const double supported = modes && modes->supported ? 0.5 * result.rows.of_structure : 0.0;
+    add(structure_like, part, result.rows.of_structure - supported);
+    if (supported > 0.0) add(structure_like, modes->supported, supported);
+    add(lines_like, part, result.rows.of_lines);
     return result;
   } catch (const core::Interrupted&) {
     throw;

@@ -8,6 +8,7 @@
 
 #include "milling/chart/operating_point.hpp"
 #include "setup/machining_setup.hpp"
+#include "study/lobes/stand_in.hpp"
 
 namespace thinwall::study {
 
@@ -31,17 +32,19 @@ struct LobesForecast {
 [[nodiscard]] ExpectedRows expected_rows(const setup::Setup& source);
 
 /// The seconds that a forecast of charts may take as a rule.
-inline constexpr double forecast_limit_s = 1.5;
+inline constexpr double forecast_limit_s = 4.0;
 
-/// The time of expected_rows(), from the time of a row, which is that of its method at the first speed, the last and
-/// between them, and of the fit of lines. What is known is taken as it is: cut, tool, and the lines of a measured tip.
-/// The part's modes, which are not known yet, have the density of those of a plate of its extent and thickness (Cremer,
-/// Heckl & Petersson 2005) and its mass. It is right within a factor of three as a rule. Empty where there is no chart,
-/// or where no row can be computed, which the run will tell; `refusal` alone is set where the tool's lines do not reach
-/// at an even speed of the chart, at the case's own or at one of the `points`. Messages are dropped: the run says them.
-/// Throws Interrupted. Cost: that of three rows and a fit, `limit_s` at most, or twice that where lines of the
-/// supported part are fitted, but for steps that do not look at interrupts.
+/// The time of expected_rows(), from the time of a row, which is the mean of its method's at three to twenty speeds,
+/// and of the fit of lines. What is known is taken as it is: cut, tool, and the lines of a measured tip. The part's
+/// modes, alone and with the robot, are those given, as rehearsed_modes() has them. Without them they have the density
+/// of those of a plate of its extent and thickness (Cremer, Heckl & Petersson 2005) and its mass, for the supported
+/// part, too. It is right within a factor of three as a rule. Empty where there is no chart, or where no row can be
+/// computed, which the run will tell; `refusal` alone is set where the tool's lines do not reach at an even speed of the
+/// chart, at the case's own or at one of the `points`. Messages are dropped: the run says them. Throws Interrupted.
+/// Cost: that of the rows and a fit, `limit_s` at most for each structure that a chart is of, of which there are one or
+/// two, but for steps that do not look at interrupts.
 [[nodiscard]] std::optional<LobesForecast> forecast_lobes(const setup::Setup& source, double limit_s = forecast_limit_s,
-                                                          const std::vector<milling::OperatingPoint>& points = {});
+                                                          const std::vector<milling::OperatingPoint>& points = {},
+                                                          const std::optional<StandInModes>& modes = {});
 
 }  // namespace thinwall::study

@@ -137,7 +137,8 @@ milling::RelativeStructure modes_like(const setup::Setup& source) {
   return structure;
 }
 
-std::optional<milling::RelativeStructure> poles_like(const setup::Setup& given) {
+std::optional<milling::RelativeStructure> poles_like(const setup::Setup& given,
+                                                     const std::optional<milling::RelativeStructure>& of_part) {
   const setup::Setup source = before_identification(given);
   std::optional<Component> robot;
   if (setup::robot_beside_tool(source, source)) {
@@ -145,8 +146,9 @@ std::optional<milling::RelativeStructure> poles_like(const setup::Setup& given) 
   }
   std::optional<milling::RelativeStructure> poles =
       cut_poles(source, nullptr, robot ? &carrier_modes(*robot) : nullptr);
-  if (source.part) poles = poles ? milling::sum(*poles, modes_like(source)) : modes_like(source);
-  return poles;
+  if (!source.part) return poles;
+  const milling::RelativeStructure part = of_part ? *of_part : modes_like(source);
+  return poles ? milling::sum(*poles, part) : part;
 }
 
 }  // namespace thinwall::study

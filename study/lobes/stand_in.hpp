@@ -17,7 +17,15 @@ namespace thinwall::study {
 /// tool by its highest resonances.
 [[nodiscard]] setup::Setup before_identification(setup::Setup source);
 
-/// The modes that the cut feels, those of the tool and those that stand in for the part's; none if neither has any.
-[[nodiscard]] std::optional<milling::RelativeStructure> poles_like(const setup::Setup& source);
+/// The modes at the cut that stand in for those of a part, part axes.
+struct StandInModes {
+  milling::RelativeStructure part;
+  std::optional<milling::RelativeStructure> supported;  ///< of part and robot; none if they have no modes together
+};
+
+/// The modes that the cut feels, those of the tool and the given ones, or else modes_like(), for the part's; none if
+/// neither has any.
+[[nodiscard]] std::optional<milling::RelativeStructure> poles_like(
+    const setup::Setup& source, const std::optional<milling::RelativeStructure>& of_part = {});
 
 }  // namespace thinwall::study

@@ -449,6 +449,7 @@ TEST_F(Compare, OneNumberThatDiffersIsFoundAndNamed) {
   EXPECT_TRUE(compare(0.01).differences.empty());
   EXPECT_EQ(call({"compare", temporary.path / "a", temporary.path / "b"}).code, 6);
   EXPECT_EQ(call({"compare", temporary.path / "a", temporary.path / "b", "--tolerance", "0.01"}).code, 0);
+  EXPECT_EQ(call({"compare", temporary.path / "a", temporary.path / "b", "--tolerance", "1e300"}).code, 2);
 }
 
 TEST_F(Compare, DifferencesAreCountedByFileAndListedOnRequest) {

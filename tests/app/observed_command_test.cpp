@@ -259,6 +259,9 @@ TEST_F(ObservedCommand, FitsForcesOverTheAngleWithTheRunoutOfATool) {
   const Outcome without = command({"coefficients", path("angles.csv"), "--teeth", "2"});
   EXPECT_EQ(without.code, 2);
   EXPECT_NE(without.err.find("--diameter is missing"), std::string::npos) << without.err;
+  const Outcome vast = command({"coefficients", path("angles.csv"), "--teeth", "2", "--diameter", "1e300 m"});
+  EXPECT_EQ(vast.code, 2);
+  EXPECT_NE(vast.err.find("1e+300 m is no length in machining"), std::string::npos) << vast.err;
   write("tool.toml", "title = \"None\"\n");
   const Outcome no_tool = command({"coefficients", path("angles.csv"), "--tool", path("tool.toml")});
   EXPECT_EQ(no_tool.code, 3);

@@ -175,5 +175,18 @@ TEST(ContactTable, RefusesPreloadsThatWereNotMeasuredAndFaultyRows) {
   EXPECT_THROW(require_valid(faulty), core::InputError);
 }
 
+TEST(ContactTable, RefusesNumbersThatNoContactHas) {
+  EXPECT_NO_THROW(require_valid(table()));
+  ContactTable large = table();
+  large.preload(4) = 1e300;
+  EXPECT_THROW(require_valid(large), core::InputError);
+  large = table();
+  large.stiffness(4) = 1e300;
+  EXPECT_THROW(require_valid(large), core::InputError);
+  large = table();
+  large.damping(4) = 1e300;
+  EXPECT_THROW(require_valid(large), core::InputError);
+}
+
 }  // namespace
 }  // namespace thinwall::coupling::preloaded_contact_test
