@@ -75,6 +75,16 @@ ProgressDisplay start_log(const Arguments& arguments) {
   return display;
 }
 
+/// Calls `work`, whose complaints about a value are about that of the option.
+template <typename Work>
+auto with_option(const char* option, const Work& work) {
+  try {
+    return work();
+  } catch (const core::UsageError& error) {
+    throw core::UsageError(std::string(option) + ": " + error.what());
+  }
+}
+
 /// Computes a case into its result folder; `report` makes the text for the terminal.
 template <typename Report>
 ExitCode compute(const Arguments& arguments, const cases::Case& source, const RunCase& run_case, std::ostream& out,
@@ -164,6 +174,7 @@ ExitCode reduce(const Arguments& arguments, std::ostream& out) {
   ReduceRequest request = arguments.reduce;
   request.display = start_log(arguments);
   messages_to_log();
+  require_options(request);
   const cases::Case source = cases::read_case(arguments.case_path, arguments.overrides);
   const auto ranks = start_ranks(arguments.ranks);
   out << reduce_part(source, request);
@@ -240,7 +251,8 @@ ExitCode check(const Arguments& arguments, std::ostream& out) {
 
 /// The answer of both results, the figures that matter most, and every difference where that is asked for.
 ExitCode compare(const Arguments& arguments, std::ostream& out) {
-  const report::Comparison comparison = report::compare_results(arguments.left, arguments.right, arguments.tolerance);
+  const report::Comparison comparison = with_option(
+      "--tolerance", [&] { return report::compare_results(arguments.left, arguments.right, arguments.tolerance); });
   out << report::answers_text(arguments.left, arguments.right) << '\n';
   if (const std::string figures = report::main_figures_text(comparison); !figures.empty()) out << figures << '\n';
   if (arguments.all) {
@@ -290,7 +302,7 @@ ExitCode remake_report(const Arguments& arguments, std::ostream& out) {
 
 ExitCode animate(const Arguments& arguments, std::ostream& out) {
   report::require_results(arguments.folder);
-  const std::filesystem::path file = report::write_phases(arguments.folder, arguments.phases);
+  const auto file = with_option("--of", [&] { return report::write_phases(arguments.folder, arguments.phases); });
   out << "wrote " << file.string() << "; open it in ParaView and press play\n";
   return ExitCode::done;
 }
@@ -320,8 +332,9 @@ ExitCode execute(const CLI::App& app, const Arguments& arguments, const RunCase&
   if (app.got_subcommand("animate")) return animate(arguments, out);
   if (app.got_subcommand("report")) return remake_report(arguments, out);
   if (app.got_subcommand("init")) {
-    const auto folder = arguments.folder.empty() ? arguments.template_name : arguments.folder;
-    const auto file = cases::write_template(arguments.template_name, folder);
+    const auto& name = arguments.template_name;
+    const auto folder = arguments.folder.empty() ? name : arguments.folder;
+    const auto file = with_option("--template", [&] { return cases::write_template(name, folder); });
     out << "wrote " << file.string() << "; compute it with: thinwall run " << file.parent_path().string() << '\n';
     return ExitCode::done;
   }

@@ -50,18 +50,6 @@ Method method_of(const ReduceRequest& request) {
   return method;
 }
 
-/// Checks that the options alone allow, before anything is computed.
-void require_options(const ReduceRequest& request) {
-  const Method method = method_of(request);
-  if (!request.tolerance) return;
-  if (!(*request.tolerance >= 1e-8 && *request.tolerance <= 1.0))
-    throw core::UsageError("--tolerance is " + core::number_text(*request.tolerance) +
-                           "; it is relative, a number from 1e-8 to 1, as 0.01");
-  if (method != Method::craig_bampton)
-    throw core::UsageError("--tolerance chooses the modes of craig_bampton; give --modes with --method " +
-                           request.method);
-}
-
 void require_reducible(const cases::Case& source) {
   if (!source.part) throw core::InputError("there is no modelled part to reduce; describe it in [part]");
   if (source.reduction.interface.empty())
@@ -215,6 +203,17 @@ std::string written(const cases::Case& source, const ReduceRequest& request, con
 }
 
 }  // namespace
+
+void require_options(const ReduceRequest& request) {
+  const Method method = method_of(request);
+  if (!request.tolerance) return;
+  if (!(*request.tolerance >= 1e-8 && *request.tolerance <= 1.0))
+    throw core::UsageError("--tolerance is " + core::number_text(*request.tolerance) +
+                           "; it is relative, a number from 1e-8 to 1, as 0.01");
+  if (method != Method::craig_bampton)
+    throw core::UsageError("--tolerance chooses the modes of craig_bampton; give --modes with --method " +
+                           request.method);
+}
 
 std::string reduce_part(const cases::Case& source, const ReduceRequest& request) {
   require_options(request);

@@ -22,12 +22,14 @@ struct ReduceRequest {
   ProgressDisplay display = ProgressDisplay::lines;
 };
 
+/// Throws UsageError for options that cannot be, whatever the case.
+void require_options(const ReduceRequest& request);
+
 /// Meshes and reduces the part to its points, measures the error of the interface's receptance over the band against
 /// the full model, writes the model (report/model_files.hpp), report.json and report.txt into the folder, and returns
 /// the text for the terminal. With neither modes nor tolerance: what the case's [reduction] says, or else a tolerance
-/// of 1
-/// %. Throws before anything is computed: UsageError for options that cannot be, InputError for a case without part or
-/// points, DataError for a folder that cannot be made or written to. Later InputError for what the method refuses;
+/// of 1 %. Throws before anything is computed: as require_options(), InputError for a case without part or points,
+/// DataError for a folder that cannot be made or written to. Later InputError for what the method refuses;
 /// NumericalError where the mode count does not meet the tolerance.
 [[nodiscard]] std::string reduce_part(const cases::Case& source, const ReduceRequest& request);
 

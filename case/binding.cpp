@@ -13,6 +13,7 @@
 #include "case/simulation_binding.hpp"
 #include "case/table.hpp"
 #include "core/error.hpp"
+#include "core/message_line.hpp"
 #include "setup/imported_part.hpp"
 
 namespace thinwall::cases {
@@ -362,7 +363,7 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   const Table root{values, ""};
   Case bound;
   bound.folder = folder;
-  bound.title = root.text("title");
+  bound.title = core::printable_text(root.text("title"));
   if (root.has("part.shape")) bound.part = bind_part(root.table("part"), folder);
   bound.measured_part = bind_all_measured(root.tables("part.measured"), folder);
   bound.part_sensors = bind_sensors(root.tables("part.sensors"));

@@ -102,8 +102,8 @@ const CaseTemplate& template_named(const std::string& name) {
   }
   std::string list;
   for (const auto& known : template_names()) list += (list.empty() ? "" : ", ") + known;
-  throw core::UsageError("there is no template \"" + name + "\"" +
-                         core::did_you_mean(name, template_names()) + "; there are " + list);
+  throw core::UsageError("there is no template \"" + name + "\"" + core::did_you_mean(name, template_names()) +
+                         "; there are " + list);
 }
 
 }  // namespace

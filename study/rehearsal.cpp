@@ -62,8 +62,8 @@ std::optional<StandInModes> rehearsed(const setup::Setup& source, mesh::TetMesh 
   StandInModes result{at_cut(*part.modal), {}};
   if (!source.robot || source.contacts.empty() || setup::is_measured(*source.robot)) return result;
   const Component robot = robot_component(*source.robot, axis, setup::robot_posture(source, source).posture);
-  const CouplingResult coupled = couple(contacts_of(setup::joined_contacts(source, source, {})),
-                                        coupling_options(source.coupling), part, robot);
+  const CouplingResult coupled =
+      couple(contacts_of(setup::joined_contacts(source, source, {})), coupling_options(source.coupling), part, robot);
   if (coupled.modal) result.supported = at_cut(*coupled.modal);
   return result;
 }
@@ -71,7 +71,7 @@ std::optional<StandInModes> rehearsed(const setup::Setup& source, mesh::TetMesh 
 }  // namespace
 
 std::optional<StandInModes> rehearsed_modes(const setup::Setup& source,
-                                              const std::shared_ptr<const fem::FirstMesh>& first) {
+                                            const std::shared_ptr<const fem::FirstMesh>& first) {
   constexpr int most_dofs = 60'000;
   if (!source.part || !source.lobes || !source.cutting || !source.tool) return std::nullopt;
   const core::Silence forecast_only;

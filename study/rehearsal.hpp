@@ -16,6 +16,6 @@ namespace thinwall::study {
 /// that is held and cut, and where the mesh has more degrees of freedom than a second solves, 60 000, or a stage fails.
 /// Messages are dropped. Throws Interrupted. Cost: up to a second.
 [[nodiscard]] std::optional<StandInModes> rehearsed_modes(const setup::Setup& source,
-                                                            const std::shared_ptr<const fem::FirstMesh>& first);
+                                                          const std::shared_ptr<const fem::FirstMesh>& first);
 
 }  // namespace thinwall::study

@@ -31,8 +31,8 @@ void require_shape(const PhasesRequest& request, const io::SurfaceFields& fields
 fs::path write_phases(const fs::path& results, const PhasesRequest& request) {
   constexpr int phases = 16;
   if (request.of != "part" && request.of != "coupled")
-    throw core::InputError("shapes are of the \"part\" alone or \"coupled\" with the robot, not of \"" +
-                           request.of + "\"");
+    throw core::UsageError("shapes are of the \"part\" alone or \"coupled\" with the robot, not of \"" + request.of +
+                           "\"");
   const fs::path folder = results / "modes";
   const io::SurfaceFields fields = io::read_vtp(folder / (request.of + "_surface.vtp"));
   require_shape(request, fields);

@@ -15,8 +15,8 @@ struct PhasesRequest {
 
 /// Writes modes/<of>_mode_<NN>_phases.pvd and sixteen surfaces beside it, x + a u cos(2πk/16) of u the shape on
 /// modes/<of>_surface.vtp, with |u cos| as data of the triangles to colour by. Returns the path of the .pvd. Throws
-/// InputError for another `of`, a mode that is not there or an amplitude out of range, DataError for files that cannot
-/// be read or written.
+/// UsageError for another `of`, InputError for a mode that is not there or an amplitude out of range, DataError for
+/// files that cannot be read or written.
 std::filesystem::path write_phases(const std::filesystem::path& results, const PhasesRequest& request);
 
 }  // namespace thinwall::report

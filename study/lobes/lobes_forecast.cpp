@@ -37,8 +37,8 @@ struct StandIn {
 
 /// The structure with a part of these modes, or of modes_like().
 StandIn structure_like(const setup::Setup& source, const std::optional<milling::RelativeStructure>& of_part) {
-  return {cut_structure(before_identification(source), setup::milling_process(source).frame,
-                        poles_like(source, of_part))};
+  return {
+      cut_structure(before_identification(source), setup::milling_process(source).frame, poles_like(source, of_part))};
 }
 
 /// The supported part as it is known by its lines: some of them, for a fit takes as long as there are lines.
@@ -167,7 +167,8 @@ std::optional<LobesForecast> forecast_lobes(const setup::Setup& source, double l
     LobesForecast result{expected_rows(source), 0.0, false, refusal_of_lines(source, points)};
     if (!result.refusal.empty()) return result;
     const auto add = [&](auto like, const std::optional<milling::RelativeStructure>& of_part, double rows) {
-      const Took took = time_of_charts(source, [&] { return like(source, of_part); }, rows, limit_s);
+      const Took took = time_of_charts(
+          source, [&] { return like(source, of_part); }, rows, limit_s);
       result.seconds += took.seconds;
       result.at_least |= took.over;
     };

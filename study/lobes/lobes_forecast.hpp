@@ -39,8 +39,8 @@ inline constexpr double forecast_limit_s = 4.0;
 /// modes, alone and with the robot, are those given, as rehearsed_modes() has them. Without them they have the density
 /// of those of a plate of its extent and thickness (Cremer, Heckl & Petersson 2005) and its mass, for the supported
 /// part, too. It is right within a factor of three as a rule. Empty where there is no chart, or where no row can be
-/// computed, which the run will tell; `refusal` alone is set where the tool's lines do not reach at an even speed of the
-/// chart, at the case's own or at one of the `points`. Messages are dropped: the run says them. Throws Interrupted.
+/// computed, which the run will tell; `refusal` alone is set where the tool's lines do not reach at an even speed of
+/// the chart, at the case's own or at one of the `points`. Messages are dropped: the run says them. Throws Interrupted.
 /// Cost: that of the rows and a fit, `limit_s` at most for each structure that a chart is of, of which there are one or
 /// two, but for steps that do not look at interrupts.
 [[nodiscard]] std::optional<LobesForecast> forecast_lobes(const setup::Setup& source, double limit_s = forecast_limit_s,

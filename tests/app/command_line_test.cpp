@@ -124,6 +124,23 @@ TEST_F(CommandLine, AValueOfAnOptionThatIsNoneIsWrongUse) {
   }
 }
 
+TEST_F(CommandLine, AnOptionThatCannotBeIsToldByItsNameBeforeTheCaseIsRead) {
+  const Outcome reduced = call({"reduce", out(), "--method", "nosuch"});
+  EXPECT_EQ(reduced.code, 2);
+  EXPECT_TRUE(reduced.err.starts_with("thinwall: --method: ")) << reduced.err;
+  const Outcome made = call({"init", "--template", "plat", out()});
+  EXPECT_EQ(made.code, 2);
+  EXPECT_TRUE(made.err.starts_with("thinwall: --template: there is no template \"plat\"")) << made.err;
+}
+
+TEST_F(CommandLine, ATitleDoesNotTurnTheTextOfATerminal) {
+  const std::string reversed = "\xE2\x80\xAE";  // U+202E
+  const Outcome outcome = call({"check", plate(), "--set", "title=\"before" + reversed + "after\""});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("before?after"), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find(reversed), std::string::npos);
+}
+
 TEST_F(CommandLine, AnEmptyNameOfAnOutputIsWrongUse) {
   for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{{"run", plate()},
                                                                                      {"simulate", plate()},

@@ -51,7 +51,7 @@ TEST(Phases, WhatIsNotThereIsRefused) {
   EXPECT_THROW((void)write_phases(folder, {"part", 2, 0.1}), core::InputError);
   EXPECT_THROW((void)write_phases(folder, {"part", 0, 0.1}), core::InputError);
   EXPECT_THROW((void)write_phases(folder, {"part", 1, 0.0}), core::InputError);
-  EXPECT_THROW((void)write_phases(folder, {"robot", 1, 0.1}), core::InputError);
+  EXPECT_THROW((void)write_phases(folder, {"robot", 1, 0.1}), core::UsageError);
   EXPECT_THROW((void)write_phases(folder, {"coupled", 1, 0.1}), core::DataError);
   core::write_file_atomically(folder / "modes" / "coupled_surface.vtp", "<VTKFile");
   EXPECT_THROW((void)write_phases(folder, {"coupled", 1, 0.1}), core::DataError);
