@@ -47,6 +47,28 @@ Eigen::ArrayXd loop_gains(const CutAtSpeed& cut, double stiffness, double depth_
   return 2.0 * depth_m * stiffness * peaks(cut.structure);
 }
 
+/// The loop gain of each mode by itself,
+///
+///     2 w/T ∫ |bᵀ D φ| dt / |Re λ|,
+///
+/// as the teeth push a mode by b and feel it by φ at the same moment: no harmonic of its stiffness exceeds the mean of
+/// the modulus. The mean of D on a short piece of an arc stands for D there.
+Eigen::ArrayXd own_gains(const CutAtSpeed& cut, double depth_m) {
+  constexpr int pieces = 8;  // of an arc
+  const RelativeStructure& s = cut.structure;
+  Eigen::ArrayXd gains = Eigen::ArrayXd::Zero(s.poles.size());
+  for (const Engagement& arc : arcs(cut.process)) {
+    const double piece_rad = arc.arc_rad() / pieces;
+    const double share = cut.process.cutter.teeth * piece_rad / (2.0 * std::numbers::pi);
+    for (int i = 0; i < pieces; ++i) {
+      const double from_rad = arc.entry_rad + i * piece_rad;
+      const Eigen::Matrix3d D = share * arc_mean(cut.process, {from_rad, from_rad + piece_rad}, depth_m);
+      gains += (s.b.cwiseProduct(D * s.phi)).colwise().sum().transpose().array().abs();
+    }
+  }
+  return 2.0 * depth_m * gains / s.poles.real().array().abs();
+}
+
 /// |λ| of the fastest mode whose figure is at least so much, rad/s.
 double fastest_of(const CutAtSpeed& cut, const Eigen::ArrayXd& figures, double least) {
   double fastest = 0.0;
@@ -54,6 +76,18 @@ double fastest_of(const CutAtSpeed& cut, const Eigen::ArrayXd& figures, double l
     if (figures(i) >= least) fastest = std::max(fastest, std::abs(cut.structure.poles(i)));
   }
   return fastest;
+}
+
+/// The gain from which a mode is resolved: that with which it could regenerate, or a share of the highest gain.
+double least_gain(const Eigen::ArrayXd& gains, double share) {
+  constexpr double regenerates = 0.5;
+  return std::min(share * gains.maxCoeff(), regenerates);
+}
+
+/// The grid that resolves a wave of this phase in the cut, rad.
+Resolution of_wave(double phase_rad) {
+  const int elements = std::max(1, static_cast<int>(std::ceil(phase_rad / 14.0)));
+  return {elements, static_cast<int>(std::ceil(3.0 + nodes_per_rad * phase_rad / elements))};
 }
 
 /// The phase of a wave through the longest stretch of a tooth in the cut, rad.
@@ -108,17 +142,22 @@ GainOnCircle gain_of(const DiscreteCut& d) {
           stops_between(d.loop.flow)};
 }
 
-double fastest_that_matters(const CutAtSpeed& cut, double stiffness, double depth_m, double share) {
+double fastest_that_matters(const CutAtSpeed& cut, double stiffness, double depth_m) {
+  constexpr double share = 0.05;
   const Eigen::ArrayXd gains = loop_gains(cut, stiffness, depth_m);
   if (gains.size() == 0) return 0.0;  // all that yields is a static compliance
-  return fastest_of(cut, gains, std::min(share * gains.maxCoeff(), 0.5));
+  return fastest_of(cut, gains, least_gain(gains, share));
 }
 
-Resolution resolving(const CutAtSpeed& cut, double depth_m, double share) {
-  const double fastest = fastest_that_matters(cut, mean_stiffness(cut.process, depth_m), depth_m, share);
-  const double phase = phase_in_cut(cut, fastest, depth_m);
-  const int elements = std::max(1, static_cast<int>(std::ceil(phase / 14.0)));
-  return {elements, static_cast<int>(std::ceil(3.0 + nodes_per_rad * phase / elements))};
+Resolution resolving(const CutAtSpeed& cut, double depth_m) {
+  return of_wave(phase_in_cut(cut, fastest_that_matters(cut, mean_stiffness(cut.process, depth_m), depth_m), depth_m));
+}
+
+Resolution resolving_alone(const CutAtSpeed& cut, double depth_m) {
+  constexpr double share = 0.2;
+  const Eigen::ArrayXd gains = own_gains(cut, depth_m);
+  if (gains.size() == 0) return of_wave(0.0);
+  return of_wave(phase_in_cut(cut, fastest_of(cut, gains, least_gain(gains, share)), depth_m));
 }
 
 double unresolved(const CutAtSpeed& cut, Resolution resolution, double depth_m) {

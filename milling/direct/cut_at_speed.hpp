@@ -38,10 +38,15 @@ struct DiscreteCut {
 /// regenerate at this depth, with loop gain 2 w ‖D̄‖ ‖φ‖ ‖b‖ / |Re λ| of at least a half, and any with a share of the
 /// highest gain, a twentieth, so that the grid serves up to twenty times this depth. A grid that does not see a mode
 /// would call it stable.
-[[nodiscard]] Resolution resolving(const CutAtSpeed& cut, double depth_m, double share = 0.05);
+[[nodiscard]] Resolution resolving(const CutAtSpeed& cut, double depth_m);
 
-/// |λ| of that mode, rad/s; `stiffness` is the norm of the mean directional matrix, N/m², `share` that of resolving().
-[[nodiscard]] double fastest_that_matters(const CutAtSpeed& cut, double stiffness, double depth_m, double share = 0.05);
+/// |λ| of that mode, rad/s; `stiffness` is the norm of the mean directional matrix, N/m².
+[[nodiscard]] double fastest_that_matters(const CutAtSpeed& cut, double stiffness, double depth_m);
+
+/// As resolving(), of a grid for this depth alone: every mode whose own loop gain 2 w ∫ |bᵀ D φ| dt / (T |Re λ|) is at
+/// least a half, or a fifth of the highest, which is 2.5 about the first crossing. Alone a mode chatters from a gain of
+/// two on, or of two thirds where short pushes of a tooth reach it by several harmonics.
+[[nodiscard]] Resolution resolving_alone(const CutAtSpeed& cut, double depth_m);
 
 /// The error that a grid may have for the modes that it does not resolve, whose phase in the cut is r > 1 times 1/0.35
 /// rad a node: 0.005 g min(1, e^{10 (r − 1.4)}) of the one for which it is largest, g its loop gain times the share of

@@ -160,9 +160,8 @@ class HelicalSearch {
 
   /// Each depth has a grid of its own, which need not serve depths of twenty times as much.
   [[nodiscard]] Resolution resolution(double depth_m) const {
-    constexpr double share =
-        0.2;  // a half, as of all modes, where the highest gain is 2.5, as about the first crossing
-    return finer_by(resolving(cut_, std::min(depth_m, cut_.process.cutter.envelope.height_m), share), refinements_);
+    const double on_edge_m = std::min(depth_m, cut_.process.cutter.envelope.height_m);
+    return finer_by(resolving_alone(cut_, on_edge_m), refinements_);
   }
 
   /// The cut keeps the shape of this depth while its force grows: what crosses the unit circle up to a sixth beyond.
