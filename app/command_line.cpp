@@ -75,7 +75,7 @@ ProgressDisplay start_log(const Arguments& arguments) {
   return display;
 }
 
-/// Calls `work`, whose complaints about a value are about that of the option.
+/// Calls `work`, whose complaints are about the value of the option.
 template <typename Work>
 auto with_option(const char* option, const Work& work) {
   try {

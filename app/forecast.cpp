@@ -55,8 +55,8 @@ Forecast unrefused_forecast(const cases::Case& source, const std::vector<milling
     study::require_points_hold(source);
     result.part = size_of(source, mesh_limit_s, result);
   }
-  result.lobes =
-      study::forecast_lobes(source, study::forecast_limit_s, points, study::rehearsed_modes(source, result.first_mesh));
+  const auto modes = [&] { return study::rehearsed_modes(source, result.first_mesh); };
+  result.lobes = study::forecast_lobes(source, study::forecast_limit_s, points, modes);
   if (!result.refused()) result.simulation = study::forecast_simulation(source);
   return result;
 }

@@ -38,8 +38,9 @@ struct Forecast {
 /// The forecast of a case: the part from its first mesh where a file holds it (study::forecast()), else by
 /// cases::estimate_size(), study::forecast_identification(), study::forecast_lobes() and study::forecast_simulation().
 /// Throws InputError for points that do not hold the part and lines that do not reach, and as study::forecast(). Cost:
-/// two seconds for charts and simulation at most each, and `mesh_limit_s` for the first mesh: where it takes longer the
-/// part's time is cases::estimate_size()'s, as the least.
+/// a second as a rule; up to seven for charts, their modes (study::rehearsed_modes()) among them, half a one for a
+/// simulation, and `mesh_limit_s` for the first mesh: where it takes longer the part's time is
+/// cases::estimate_size()'s, as the least.
 [[nodiscard]] Forecast forecast(const cases::Case& source, double mesh_limit_s = 8.0);
 
 /// "about 3 min" or, of what is only known to be longer, "over 3 min"; a second at least.

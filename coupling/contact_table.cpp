@@ -52,8 +52,8 @@ void require_valid(const ContactTable& table) {
   }
   for (Eigen::Index i = 0; i < rows; ++i) {
     if (!(std::abs(table.preload(i)) <= most_n) || (i > 0 && !(table.preload(i) > table.preload(i - 1)))) {
-      begin() << "the preload in row " << i + 1 << " is " << table.preload(i) << " N, but preloads must rise, to "
-              << most_n << " at most";
+      begin() << "the preload in row " << i + 1 << " is " << table.preload(i) << " N, but preloads must rise, within "
+              << most_n << " N";
     }
     if (!(table.stiffness(i) > 0.0 && table.stiffness(i) <= most_n_per_m)) {
       begin() << "the stiffness in row " << i + 1 << " is " << table.stiffness(i) << " N/m, but it must be positive, "

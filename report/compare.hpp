@@ -32,7 +32,7 @@ void require_results(const std::filesystem::path& folder);
 /// column kind_of_column(); a number that the schema does not know is compared relatively. Run times and sentences are
 /// not. Sections that only one has are told by what they hold; of lists of different lengths the entries that both have
 /// are compared. Throws DataError if a folder has no summary.json or a
-/// damaged one, UsageError for a tolerance below zero or none.
+/// damaged one, UsageError for a tolerance that is not from 0 to 1.
 [[nodiscard]] Comparison compare_results(const std::filesystem::path& left, const std::filesystem::path& right,
                                          double tolerance);
 

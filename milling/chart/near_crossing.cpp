@@ -220,8 +220,10 @@ void widen_for_near_crossings(const FittedStructure& structure, const MillingPro
   if (!row.at_limit && !(row.error_estimate < 1.0)) return;
   const double depth_m = row.limiting_depth_m;
   const CutAtSpeed cut = cut_at_speed(structure.all.poles, process, row.spindle_speed_rpm);
-  const Resolution coarse = resolving_alone(cut, depth_m);
-  const double shape_m = process.cutter.depends_on_depth() ? depth_m : 0.0;
+  const bool shaped = process.cutter.depends_on_depth();
+  const double shape_m = shaped ? depth_m : 0.0;
+  const double deepest_m = std::min(may_be_limit * depth_m, process.cutter.envelope.height_m);
+  const Resolution coarse = searching(cut, shaped ? deepest_m : depth_m);
   const DiscreteCut d = discrete(cut, coarse, shape_m);
   const GainOnCircle gain = gain_of(d);
   CriticalDepths search(gain);

@@ -28,13 +28,13 @@ inline constexpr double may_be_limit = 1.3;
 /// meet: a limit by flip or fold with an estimate of as much may be none, and the estimate grows by the distance to the
 /// next crossing, or by 1 where none is known. So does that of a limit which the finer grid lacks.
 ///
-/// Eigenvalues are sought at the angles of a search on the coarse grid up to the limit, and taken from a finer one: all
-/// of them at θ = 0 and π, of large gains the largest alone between, as an eigenvalue near the axis is so at several
-/// angles. Two that are real on the one grid may be a pair on the other: where one is not found again at θ = 0 or π,
-/// all of the finer grid there are taken. With a helix the cut keeps the shape of the limit. The status follows the
-/// estimate, also that of a row at the depth limit once it has grown. Throws NumericalError as CriticalDepths. Cost:
-/// that search, and for up to six eigenvalues below the limit and six above it with |Im ν| ≤ Re ν/10 a value of the
-/// gain by each fit.
+/// Eigenvalues are sought at the angles of a search on the coarse grid up to the limit, and taken from a finer one. At
+/// θ = 0 and π all are found. Between them, the search of a large gain finds those that a depth can reach, which could
+/// miss one at an angle; an eigenvalue near the axis is near it at the angles beside, too. Two that are real on the one
+/// grid may be a pair on the other: where one is not found again at θ = 0 or π, all of the finer grid there are taken.
+/// With a helix the cut keeps the shape of the limit. The status follows the estimate, also that of a row at the depth
+/// limit once it has grown. Throws NumericalError as CriticalDepths. Cost: that search, and for up to six eigenvalues
+/// below the limit and six above it with |Im ν| ≤ Re ν/10 a value of the gain by each fit.
 void widen_for_near_crossings(const FittedStructure& structure, const MillingProcess& process,
                               const StabilityOptions& options, LobeRow& row);
 

@@ -39,7 +39,7 @@ class CrossingGrid {
   /// Two grids finer than a search begins with, where the row's own estimate is as a rule met.
   CrossingGrid(const CutAtSpeed& cut, double depth_m)
       : cut_(cut),
-        resolution_(finer(finer(resolving_alone(cut, depth_m)))),
+        resolution_(finer(finer(searching(cut, depth_m)))),
         shape_m_(cut.process.cutter.depends_on_depth() ? depth_m : 0.0),
         discrete_(discrete(cut, resolution_, shape_m_)) {}
 

@@ -47,26 +47,37 @@ Eigen::ArrayXd loop_gains(const CutAtSpeed& cut, double stiffness, double depth_
   return 2.0 * depth_m * stiffness * peaks(cut.structure);
 }
 
-/// The loop gain of each mode by itself,
+/// The loop gain of each mode by itself or with one that is so close that both swing at one frequency, whichever is
+/// more,
 ///
-///     2 w/T ∫ |bᵀ D φ| dt / |Re λ|,
+///     √(g_jk g_kj),      g_jk = 2 w/T ∫ |b_jᵀ D φ_k| dt / |Re λ_j|,
 ///
 /// as the teeth push a mode by b and feel it by φ at the same moment: no harmonic of its stiffness exceeds the mean of
 /// the modulus. The mean of D on a short piece of an arc stands for D there.
 Eigen::ArrayXd own_gains(const CutAtSpeed& cut, double depth_m) {
   constexpr int pieces = 8;  // of an arc
   const RelativeStructure& s = cut.structure;
-  Eigen::ArrayXd gains = Eigen::ArrayXd::Zero(s.poles.size());
+  const Index modes = s.poles.size();
+  Eigen::ArrayXXd g = Eigen::ArrayXXd::Zero(modes, modes);
   for (const Engagement& arc : arcs(cut.process)) {
     const double piece_rad = arc.arc_rad() / pieces;
     const double share = cut.process.cutter.teeth * piece_rad / (2.0 * std::numbers::pi);
     for (int i = 0; i < pieces; ++i) {
       const double from_rad = arc.entry_rad + i * piece_rad;
       const Eigen::Matrix3d D = share * arc_mean(cut.process, {from_rad, from_rad + piece_rad}, depth_m);
-      gains += (s.b.cwiseProduct(D * s.phi)).colwise().sum().transpose().array().abs();
+      g += (s.b.transpose() * (D * s.phi)).cwiseAbs2().cwiseSqrt().array();
     }
   }
-  return 2.0 * depth_m * gains / s.poles.real().array().abs();
+  const Eigen::ArrayXd half_width = s.poles.real().array().abs();
+  g.colwise() *= 2.0 * depth_m / half_width;
+  Eigen::ArrayXd gains = g.matrix().diagonal().array();
+  for (Index j = 0; j < modes; ++j) {
+    for (Index k = 0; k < modes; ++k) {
+      const bool close = std::abs(s.poles(j).imag() - s.poles(k).imag()) <= 2.0 * (half_width(j) + half_width(k));
+      if (close) gains(j) = std::max(gains(j), std::sqrt(g(j, k) * g(k, j)));
+    }
+  }
+  return gains;
 }
 
 /// |λ| of the fastest mode whose figure is at least so much, rad/s.
@@ -158,6 +169,10 @@ Resolution resolving_alone(const CutAtSpeed& cut, double depth_m) {
   const Eigen::ArrayXd gains = own_gains(cut, depth_m);
   if (gains.size() == 0) return of_wave(0.0);
   return of_wave(phase_in_cut(cut, fastest_of(cut, gains, least_gain(gains, share)), depth_m));
+}
+
+Resolution searching(const CutAtSpeed& cut, double depth_m) {
+  return cut.process.cutter.depends_on_depth() ? resolving_alone(cut, depth_m) : resolving(cut, depth_m);
 }
 
 double unresolved(const CutAtSpeed& cut, Resolution resolution, double depth_m) {

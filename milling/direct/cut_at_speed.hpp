@@ -43,10 +43,14 @@ struct DiscreteCut {
 /// |λ| of that mode, rad/s; `stiffness` is the norm of the mean directional matrix, N/m².
 [[nodiscard]] double fastest_that_matters(const CutAtSpeed& cut, double stiffness, double depth_m);
 
-/// As resolving(), of a grid for this depth alone: every mode whose own loop gain 2 w ∫ |bᵀ D φ| dt / (T |Re λ|) is at
-/// least a half, or a fifth of the highest, which is 2.5 about the first crossing. Alone a mode chatters from a gain of
-/// two on, or of two thirds where short pushes of a tooth reach it by several harmonics.
+/// As resolving(), of a grid for this depth alone: every mode whose loop gain 2 w ∫ |bᵀ D φ| dt / (T |Re λ|), by itself
+/// or with a mode close to it, is at least a half, or a fifth of the highest, which is 2.5 about the first crossing. A
+/// mode chatters by itself from a gain of two on, or of one where the teeth push it in short blows.
 [[nodiscard]] Resolution resolving_alone(const CutAtSpeed& cut, double depth_m);
+
+/// The grid on which a row is searched about a depth: resolving_alone() where the depth shapes the cut, so that each
+/// one has a grid of its own, else resolving().
+[[nodiscard]] Resolution searching(const CutAtSpeed& cut, double depth_m);
 
 /// The error that a grid may have for the modes that it does not resolve, whose phase in the cut is r > 1 times 1/0.35
 /// rad a node: 0.005 g min(1, e^{10 (r − 1.4)}) of the one for which it is largest, g its loop gain times the share of

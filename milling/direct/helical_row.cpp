@@ -161,7 +161,7 @@ class HelicalSearch {
   /// Each depth has a grid of its own, which need not serve depths of twenty times as much.
   [[nodiscard]] Resolution resolution(double depth_m) const {
     const double on_edge_m = std::min(depth_m, cut_.process.cutter.envelope.height_m);
-    return finer_by(resolving_alone(cut_, on_edge_m), refinements_);
+    return finer_by(searching(cut_, on_edge_m), refinements_);
   }
 
   /// The cut keeps the shape of this depth while its force grows: what crosses the unit circle up to a sixth beyond.

@@ -32,10 +32,6 @@ milling::RelativeStructure tool_modes(const setup::Tool& tool) {
                                      "tool");
 }
 
-milling::RelativeStructure part_structure(const setup::CutSetup& source, const dynamics::ModalModel& part) {
-  return milling::relative_structure(kept_modes(source, part), source.cutting->at);
-}
-
 /// The tool's files as a matrix in part axes, on `axis`.
 milling::SampledReceptance measured_tip(const std::vector<setup::MeasuredFrf>& files,
                                         const dynamics::FrequencyAxis& axis) {
@@ -91,6 +87,10 @@ milling::FittedStructure fitted(milling::SampledReceptance lines,
 dynamics::ModalModel kept_modes(const setup::CutSetup& source, const dynamics::ModalModel& part) {
   if (!source.lobes || !source.lobes->modes_up_to_hz) return part;
   return dynamics::truncate(part, 2.0 * std::numbers::pi * *source.lobes->modes_up_to_hz, true);
+}
+
+milling::RelativeStructure part_structure(const setup::CutSetup& source, const dynamics::ModalModel& part) {
+  return milling::relative_structure(kept_modes(source, part), source.cutting->at);
 }
 
 std::optional<double> usual_modes_up_to_hz(const Eigen::VectorXd& fixed_interface_hz) {

@@ -29,6 +29,10 @@ using CutStructure = std::variant<milling::RelativeStructure, milling::FittedStr
 /// The modes of the part that the cut feels: up to lobes.modes_up_to where that is given, the others statically.
 [[nodiscard]] dynamics::ModalModel kept_modes(const setup::CutSetup& source, const dynamics::ModalModel& part);
 
+/// Those modes at the point that is cut, part axes. Errors as milling::relative_structure().
+[[nodiscard]] milling::RelativeStructure part_structure(const setup::CutSetup& source,
+                                                        const dynamics::ModalModel& part);
+
 /// The bound above which modes of a reduced part act by their static compliance in a chart whose case does not say, Hz:
 /// one and a half times the highest fixed-interface mode that the reduction keeps, given by all that it keeps. Beyond,
 /// the reduced model's modes are no longer those of the part, and resolving the waves of modes of 100 kHz and more in

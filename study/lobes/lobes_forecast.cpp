@@ -76,7 +76,8 @@ Took time_of(const std::function<void()>& work) {
 
 /// The mean of what a row takes at speeds that are spread evenly over ln n: even speeds are denser in it at the top,
 /// those that a line adds at the bottom. Rows of one chart differ a hundredfold, for a deep limit needs a fine grid.
-/// From the last speed, which is the cheapest as a rule; no more rows than `enough_s` holds, but three at least.
+/// The last speed, which is the cheapest as a rule, comes first. A row is begun while fewer than three are timed or
+/// `enough_s` are not over.
 Took mean_row(const std::function<void(double rpm)>& row, double from_rpm, double to_rpm, double enough_s) {
   constexpr double golden = std::numbers::phi - 1.0;  // its multiples, less whole ones, spread evenly
   constexpr int least = 3, most = 20;
@@ -111,7 +112,7 @@ std::string refusal_of_lines(const setup::Setup& source, const std::vector<milli
 
 /// The time of so many rows of a structure, on all threads, and of making it; over: at least so much.
 Took time_of_charts(const setup::Setup& source, const std::function<StandIn()>& like, double rows, double limit_s) {
-  constexpr double share_of_limit = 0.15;  // after which no further row is begun
+  constexpr double share_of_limit = 0.2;  // after which no further row is begun
   if (rows == 0.0) return {};
   const setup::LobesOptions& lobes = *source.lobes;
   const milling::MillingProcess process = setup::milling_process(source);
@@ -160,12 +161,13 @@ ExpectedRows expected_rows(const setup::Setup& source) {
 
 std::optional<LobesForecast> forecast_lobes(const setup::Setup& source, double limit_s,
                                             const std::vector<milling::OperatingPoint>& points,
-                                            const std::optional<StandInModes>& modes) {
+                                            const StandInModesOf& modes_of) {
   if (!source.lobes || !source.cutting || !source.tool) return std::nullopt;
   const core::Silence forecast_only;
   try {
     LobesForecast result{expected_rows(source), 0.0, false, refusal_of_lines(source, points)};
     if (!result.refusal.empty()) return result;
+    const std::optional<StandInModes> modes = modes_of ? modes_of() : std::nullopt;
     const auto add = [&](auto like, const std::optional<milling::RelativeStructure>& of_part, double rows) {
       const Took took = time_of_charts(
           source, [&] { return like(source, of_part); }, rows, limit_s);

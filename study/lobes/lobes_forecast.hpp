@@ -2,6 +2,7 @@
 // The time that the charts of a set-up will take, from some of their rows computed with modes that stand in for the
 // part's.
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,20 +32,23 @@ struct LobesForecast {
 /// at least, as far as they may be added. The set-up must have lobes.
 [[nodiscard]] ExpectedRows expected_rows(const setup::Setup& source);
 
-/// The seconds that a forecast of charts may take as a rule.
-inline constexpr double forecast_limit_s = 4.0;
+/// The seconds that a forecast may take for each structure that a chart is of, as a rule.
+inline constexpr double forecast_limit_s = 2.5;
 
-/// The time of expected_rows(), from the time of a row, which is the mean of its method's at three to twenty speeds,
-/// and of the fit of lines. What is known is taken as it is: cut, tool, and the lines of a measured tip. The part's
-/// modes, alone and with the robot, are those given, as rehearsed_modes() has them. Without them they have the density
-/// of those of a plate of its extent and thickness (Cremer, Heckl & Petersson 2005) and its mass, for the supported
-/// part, too. It is right within a factor of three as a rule. Empty where there is no chart, or where no row can be
-/// computed, which the run will tell; `refusal` alone is set where the tool's lines do not reach at an even speed of
-/// the chart, at the case's own or at one of the `points`. Messages are dropped: the run says them. Throws Interrupted.
-/// Cost: that of the rows and a fit, `limit_s` at most for each structure that a chart is of, of which there are one or
-/// two, but for steps that do not look at interrupts.
+/// Gives the modes of the part for a forecast; none where they are not known.
+using StandInModesOf = std::function<std::optional<StandInModes>()>;
+
+/// The time of expected_rows(), from the mean time of a row of its method at up to twenty speeds, and of the fit of
+/// lines. What is known is taken as it is: cut, tool, and the lines of a measured tip. The part's modes, alone and with
+/// the robot, are those of `modes_of`, as rehearsed_modes() has them, which is called once if the lines are not
+/// refused. Without it they have the density of those of a plate of the part's extent and thickness (Cremer, Heckl &
+/// Petersson 2005) and its mass, for the supported part, too. It is right within a factor of three as a rule. Empty
+/// where there is no chart, or where no row can be computed, which the run will tell; `refusal` alone is set where the
+/// tool's lines do not reach at an even speed of the chart, at the case's own or at one of the `points`. Messages are
+/// dropped: the run says them. Throws Interrupted. Cost: that of `modes_of`, of the rows and of a fit, `limit_s` at
+/// most for each structure, of which there are one or two, but for steps that do not look at interrupts.
 [[nodiscard]] std::optional<LobesForecast> forecast_lobes(const setup::Setup& source, double limit_s = forecast_limit_s,
                                                           const std::vector<milling::OperatingPoint>& points = {},
-                                                          const std::optional<StandInModes>& modes = {});
+                                                          const StandInModesOf& modes_of = {});
 
 }  // namespace thinwall::study

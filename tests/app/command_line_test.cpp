@@ -466,7 +466,12 @@ TEST_F(Compare, OneNumberThatDiffersIsFoundAndNamed) {
   EXPECT_TRUE(compare(0.01).differences.empty());
   EXPECT_EQ(call({"compare", temporary.path / "a", temporary.path / "b"}).code, 6);
   EXPECT_EQ(call({"compare", temporary.path / "a", temporary.path / "b", "--tolerance", "0.01"}).code, 0);
-  EXPECT_EQ(call({"compare", temporary.path / "a", temporary.path / "b", "--tolerance", "1e300"}).code, 2);
+  const Outcome vast = call({"compare", temporary.path / "a", temporary.path / "b", "--tolerance", "1e300"});
+  EXPECT_EQ(vast.code, 2);
+  EXPECT_TRUE(vast.err.starts_with("thinwall: --tolerance: 1e+300 is no relative tolerance")) << vast.err;
+  const Outcome shape = call({"animate", temporary.path / "a", "--of", "nothing"});
+  EXPECT_EQ(shape.code, 2);
+  EXPECT_TRUE(shape.err.starts_with("thinwall: --of: ")) << shape.err;
 }
 
 TEST_F(Compare, DifferencesAreCountedByFileAndListedOnRequest) {

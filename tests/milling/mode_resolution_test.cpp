@@ -43,7 +43,7 @@ int nodes(Resolution r) {
 }
 
 TEST(ModeResolution, OneDepthResolvesAModeByWhatTheTeethDoToItAlone) {
-  // At φ = 180° D = K_t x yᵀ/2: a mode along x has chips of no thickness, one between x and y feels the whole of it.
+  // At φ = 180° D = K_t x yᵀ: a mode along x has chips of no thickness, one between x and y feels half of D.
   const MillingProcess process = thin_cut();
   const RelativeStructure slow = mode(500.0, 0.25 * std::numbers::pi);
   const RelativeStructure along_x = mode(40'000.0, 0.0, 0.1);
@@ -72,6 +72,31 @@ TEST(ModeResolution, OneDepthResolvesAModeFromTheGainWithWhichItCouldRegenerate)
   const CutAtSpeed slow_alone = cut_at_speed(slow, process, rpm);
   EXPECT_EQ(nodes(resolving_alone(both, 0.97 * half_m)), nodes(resolving_alone(slow_alone, 0.97 * half_m)));
   EXPECT_GT(nodes(resolving_alone(both, 1.03 * half_m)), nodes(resolving_alone(slow_alone, 1.03 * half_m)));
+}
+
+TEST(ModeResolution, OneDepthResolvesAModeOfAFifthOfTheHighestGain) {
+  // Where all gains are small, at a hundredth of the depth of the tests above.
+  const MillingProcess process = thin_cut();
+  const auto nodes_with = [&](double share) {
+    const RelativeStructure slow = mode(500.0, 0.25 * std::numbers::pi);
+    const RelativeStructure fast = mode(40'000.0, 0.25 * std::numbers::pi, share);
+    return nodes(resolving_alone(cut_at_speed(sum(slow, fast), process, rpm), 2e-5));
+  };
+  EXPECT_GT(nodes_with(0.21), nodes_with(0.19));
+}
+
+TEST(ModeResolution, OneDepthResolvesModesThatRegenerateThroughEachOther) {
+  // Teeth that push along y while they feel x, at φ = 90°, and along x while they feel y, at 180°, with no force along
+  // the chip: neither of two modes at one frequency has a gain by itself.
+  MillingProcess process = thin_cut();
+  const RelativeStructure slow = mode(500.0, 0.25 * std::numbers::pi);
+  const RelativeStructure x = mode(40'000.0, 0.0, 0.4), y = mode(40'000.0, 0.5 * std::numbers::pi, 0.4);
+  constexpr double half_rad = 0.025, depth_m = 2e-3;
+  process.engagement = {0.5 * std::numbers::pi - half_rad, 0.5 * std::numbers::pi + half_rad};
+  process.further_engagements = {{std::numbers::pi - half_rad, std::numbers::pi + half_rad}};
+  const int alone = nodes(resolving_alone(cut_at_speed(sum(slow, x), process, rpm), depth_m));
+  EXPECT_EQ(nodes(resolving_alone(cut_at_speed(sum(slow, y), process, rpm), depth_m)), alone);
+  EXPECT_GT(nodes(resolving_alone(cut_at_speed(sum(slow, sum(x, y)), process, rpm), depth_m)), alone);
 }
 
 }  // namespace
