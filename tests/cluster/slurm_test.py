@@ -160,6 +160,10 @@ PartitionName=main Nodes=ALL Default=YES MaxTime=INFINITE State=UP
                 del self.seen[number]
         return lines
 
+    def waits(self, shard):
+        """True if the job of a shard is in the queue and does not run."""
+        return str(shard) in self.run("squeue", "-h", "-r", "-t", "PD", "-o", "%K").stdout.split()
+
     def stop(self):
         for process in (self.node, self.controller, self.munge):
             process.kill()
@@ -193,6 +197,8 @@ def test_forty_points(slurm, thinwall, case, folder):
         running = processes(f"--shard {shard}/{SHARDS}", of=folder)
         assert running, f"shard {shard} has ended before it could be killed"
         kill(running)
+        # A node that is lost before the queue has the job again ends its next run, too, and for good.
+        wait_for(f"shard {shard} in the queue again", lambda s=shard: slurm.waits(s))
     wait_for("shard 3 or 4", lambda: processes(f"--shard 3/{SHARDS}", f"--shard 4/{SHARDS}", of=folder))
     assert slurm.restart_node() > 0, "nothing ran on the node that was restarted"
     wait_for("the end of all jobs", lambda: not slurm.jobs())

@@ -27,6 +27,8 @@ using namespace study;
 
 namespace {
 
+constexpr double enough_s = 20.0;
+
 std::optional<LobesForecast> forecast_of(const std::string& text, double limit_s) {
   return forecast_lobes(parse_case(text, "."), limit_s);
 }
@@ -70,7 +72,7 @@ TEST(LobesForecast, CountsTheRowsThatARunComputes) {
 }
 
 TEST(LobesForecast, IsTheTimeOfARowTimesTheirNumber) {
-  const auto forecast = forecast_of(cutter_case(), 20.0);
+  const auto forecast = forecast_of(cutter_case(), enough_s);
   ASSERT_TRUE(forecast);
   EXPECT_FALSE(forecast->at_least);
   EXPECT_GT(forecast->seconds, 0.0);
@@ -89,12 +91,12 @@ TEST(LobesForecast, RowsThatDoNotEndInTimeBoundItFromBelow) {
 TEST(LobesForecast, ThereIsNoneWithoutAChart) {
   cases::Case source = parse_case(cutter_case(), ".");
   source.lobes.reset();
-  EXPECT_FALSE(forecast_lobes(source, 20.0));
+  EXPECT_FALSE(forecast_lobes(source, enough_s));
 }
 
 TEST(LobesForecast, ModesStandInForThoseOfThePart) {
   const std::string folder = std::string(THINWALL_SOURCE_DIR) + "/cases/cantilever-wall";
-  const auto forecast = forecast_lobes(read_case(folder), 20.0);
+  const auto forecast = forecast_lobes(read_case(folder), enough_s);
   ASSERT_TRUE(forecast);
   EXPECT_FALSE(forecast->at_least);
   EXPECT_GT(forecast->seconds, 0.0);
@@ -132,18 +134,18 @@ TEST(LobesForecast, LinesThatDoNotReachTheTeethAreRefusedAsTheRunDoes) {
   // Lines to 1000 Hz about a mode at 600 Hz: two teeth pass at 200 Hz at 6000 rpm, which they hold, but at 500 Hz at
   // 15000 rpm they do not.
   const TemporaryFolder folder;
-  const std::string text = case_with_lines(folder.path, 10.0, 1000.0, 20.0);
+  const std::string text = case_with_lines(folder.path, 10.0, 1000.0, 600.0);
   const Case slow = parse_case(text, folder.path);
-  const auto held = forecast_lobes(slow, 20.0);
+  const auto held = forecast_lobes(slow, enough_s);
   ASSERT_TRUE(held);
   EXPECT_EQ(held->refusal, "");
   const Case fast = parse_case(with(text, "to = \"6000 rpm\"", "to = \"15000 rpm\""), folder.path);
-  const auto refused = forecast_lobes(fast, 20.0);
+  const auto refused = forecast_lobes(fast, enough_s);
   ASSERT_TRUE(refused);
   EXPECT_NE(refused->refusal.find("do not hold the harmonic at 1100 Hz"), std::string::npos) << refused->refusal;
   EXPECT_NE(refusal_of_run(fast, {}).find("do not hold the harmonic"), std::string::npos);
   const std::vector<milling::OperatingPoint> points{{15000.0, 1e-4}};
-  const auto asked = forecast_lobes(slow, 20.0, points);
+  const auto asked = forecast_lobes(slow, enough_s, points);
   ASSERT_TRUE(asked);
   EXPECT_EQ(asked->refusal, "tool.measured: " + refusal_of_run(slow, points)) << "the run is refused by the forecast";
   EXPECT_EQ(asked->refusal, refused->refusal) << "the chart's last speed is asked about there";
@@ -153,10 +155,10 @@ TEST(LobesForecast, LinesAreAskedBetweenTheEndsOfTheChartToo) {
   // Two teeth pass at 250 Hz and at 1600 Hz at the ends, each 650 Hz or more beside the mode at 900 Hz; at the middle
   // speed it is 925 Hz, and the harmonic at 25 Hz is none of the lines.
   const TemporaryFolder folder;
-  const std::string text = case_with_lines(folder.path, 20.0, 3998.0, 900.0);
+  const std::string text = case_with_lines(folder.path, 600.0, 3998.0, 900.0);
   const std::string wide =
       with(with(text, "from = \"5000 rpm\"", "from = \"7500 rpm\""), "to = \"6000 rpm\"", "to = \"48000 rpm\"");
-  const auto forecast = forecast_lobes(parse_case(wide, folder.path), 20.0);
+  const auto forecast = forecast_lobes(parse_case(wide, folder.path), enough_s);
   ASSERT_TRUE(forecast);
   EXPECT_NE(forecast->refusal.find("beside the resonance at 9"), std::string::npos) << forecast->refusal;
   EXPECT_NE(refusal_of_run(parse_case(wide, folder.path), {}).find("beside the resonance at 9"), std::string::npos);
@@ -165,11 +167,11 @@ TEST(LobesForecast, LinesAreAskedBetweenTheEndsOfTheChartToo) {
 TEST(LobesForecast, WarnsOfNothingForTheRunDoes) {
   // Lines of the wrong sign give energy.
   const TemporaryFolder folder;
-  const std::string text = case_with_lines(folder.path, 10.0, 1000.0, 20.0, -0.02);
+  const std::string text = case_with_lines(folder.path, 10.0, 1000.0, 600.0, -0.02);
   std::string told;
   const auto before = core::set_message_listener([&](core::MessageLevel, const std::string& said) { told += said; });
   const Case source = parse_case(text, folder.path);
-  const auto forecast = forecast_lobes(source, 20.0);
+  const auto forecast = forecast_lobes(source, enough_s);
   EXPECT_EQ(told, "");
   (void)refusal_of_run(source, {});
   (void)core::set_message_listener(before);
@@ -183,7 +185,7 @@ TEST(LobesForecast, WhatIsAskedForBesideTheChartCounts) {
   EXPECT_EQ(rows(plain), 300.0);
   EXPECT_EQ(rows(with(cutter_case(), "count = 3", "count = 800")), 1000.0);
   EXPECT_EQ(rows(with(plain, "count = 100", "count = 100\nmost_added = 20")), 120.0);
-  EXPECT_EQ(rows(with(plain, "count = 100", "count = 100\ncompare = [\"zeroth_order\"]")), 20.0);
+  EXPECT_EQ(rows(with(plain, "count = 100", "count = 100\ncompare = [\"zeroth_order\"]")), 600.0);
   EXPECT_GT(rows(plain + "[lobes.uncertainty]\nfrequency = 0.01\n"), 3.5 * 300.0) << "two rows a speed and more";
 }
 
