@@ -34,10 +34,10 @@ std::optional<mesh::TetMesh> mesh_of(const PartInput& source, const std::shared_
   return setup::cut_at_materials(source, setup::graded_mesh(source, 0));
 }
 
-/// The set-up without what a forecast does not need.
+/// The set-up, which has a part, without what a forecast does not need.
 setup::Setup plain(const setup::Setup& source) {
   setup::Setup result = before_identification(source);
-  if (result.part) result.part->mesh.tolerance = 1.0;  // a first mesh may lack percents of a rounded part's mass
+  result.part->mesh.tolerance = 1.0;  // a first mesh may lack percents of a rounded part's mass
   result.updating.clear();
   result.path.reset();
   result.modes = {};

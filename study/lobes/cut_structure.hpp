@@ -29,7 +29,7 @@ using CutStructure = std::variant<milling::RelativeStructure, milling::FittedStr
 /// The modes of the part that the cut feels: up to lobes.modes_up_to where that is given, the others statically.
 [[nodiscard]] dynamics::ModalModel kept_modes(const setup::CutSetup& source, const dynamics::ModalModel& part);
 
-/// Those modes at the point that is cut, part axes. Errors as milling::relative_structure().
+/// The modes that kept_modes() has, at the point that is cut, part axes. Errors as milling::relative_structure().
 [[nodiscard]] milling::RelativeStructure part_structure(const setup::CutSetup& source,
                                                         const dynamics::ModalModel& part);
 

@@ -175,7 +175,7 @@ std::optional<LobesForecast> forecast_lobes(const setup::Setup& source, double l
       result.at_least |= took.over;
     };
     const std::optional<milling::RelativeStructure> part = modes ? std::optional(modes->part) : std::nullopt;
-    // Where both are known, half of the rows are those of the supported part, which is stable up to other depths.
+    // The supported part, which is stable up to other depths, has half of the rows if its modes are known.
     const double supported = modes && modes->supported ? 0.5 * result.rows.of_structure : 0.0;
     add(structure_like, part, result.rows.of_structure - supported);
     if (supported > 0.0) add(structure_like, modes->supported, supported);

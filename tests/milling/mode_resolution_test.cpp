@@ -75,7 +75,7 @@ TEST(ModeResolution, OneDepthResolvesAModeFromTheGainWithWhichItCouldRegenerate)
 }
 
 TEST(ModeResolution, OneDepthResolvesAModeOfAFifthOfTheHighestGain) {
-  // Where all gains are small, at a hundredth of the depth of the tests above.
+  // At a hundredth of the depth of the tests above all gains are small.
   const MillingProcess process = thin_cut();
   const auto nodes_with = [&](double share) {
     const RelativeStructure slow = mode(500.0, 0.25 * std::numbers::pi);
