@@ -203,7 +203,9 @@ CriticalDepths::Stop& CriticalDepths::at(double theta_rad) {
 }
 
 double CriticalDepths::bound_of(Stop& stop) {
-  if (!stop.bound) stop.bound = radius_bound(stop.Z);
+  if (stop.bound) return *stop.bound;
+  core::check_interrupt();  // two products of a large Z take tenths of a second, and there are many stops
+  stop.bound = radius_bound(stop.Z);
   return *stop.bound;
 }
 

@@ -8,7 +8,10 @@ import unicodedata
 
 CODES = {0: "done", 2: "usage", 3: "invalid case", 4: "unreadable data", 5: "numerical failure", 6: "expectation missed"}
 CRASH_WORDS = ("internal error", "terminate called", "Sanitizer", "runtime error:", "Assertion", "std::", "bad_alloc")
-MOST_SECONDS = 2.0  # of the processor, all threads together, for what is refused and for all that `check` does
+MOST_SECONDS = 2.0  # of the processor, all threads together, for what is refused
+# The same for what `check` accepts: it computes modes for two seconds at most, and then rows of the part alone and of the
+# supported part, each for study::forecast_limit_s of 2.5 s.
+MOST_FORECAST_SECONDS = MOST_SECONDS + 2.0 + 2 * 2.5
 MOST_WAIT = 60      # s, after which a program is said to hang; far from what any input takes
 LONGEST_LINE = 600  # bytes: docs/conventions.md, exit codes
 MOST_LINES = 21     # problems of a case that are shown, and the line that counts the others
@@ -136,7 +139,7 @@ def wrong_with(given, answer):
         return found + ["refused: " + answer.lines[0]]
     if answer.code == 0 and given.refused:
         found.append("accepted")
-    if (answer.code != 0 or checked) and answer.seconds > MOST_SECONDS:
+    if answer.seconds > (MOST_FORECAST_SECONDS if answer.code == 0 else MOST_SECONDS) and (answer.code != 0 or checked):
         found.append(f"{answer.seconds:.1f} s of the processor")
     if answer.code in (0, 6):
         return found + (["writes " + ", ".join(answer.written[:3])] if answer.written and checked else [])

@@ -7,8 +7,11 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <complex>
+#include <optional>
 #include <utility>
 #include <vector>
+
+#include "core/time_limit.hpp"
 
 namespace thinwall::milling::critical_depths_test {
 
@@ -91,6 +94,21 @@ TEST(CriticalDepths, AskForTheGainOnceAStopAndNotBeforeTheyAreSought) {
   EXPECT_EQ(asked, stops);
   (void)search.none_below_m();
   EXPECT_EQ(asked, stops) << "kept for other depths";
+}
+
+TEST(CriticalDepths, TheirBoundsLookAtInterruptsOnceEveryGainIsThere) {
+  int asked = 0;
+  GainOnCircle gain = turning_gain(asked);
+  const auto stops = static_cast<int>(gain.stops.size());
+  std::optional<core::TimeLimit> limit;
+  gain.Z = [&, Z = gain.Z](double theta) {
+    Eigen::MatrixXcd result = Z(theta);
+    if (asked == stops) limit.emplace(0.0);
+    return result;
+  };
+  CriticalDepths search(gain);
+  EXPECT_THROW((void)search.none_below_m(), core::TimeIsOver);
+  EXPECT_EQ(asked, stops);
 }
 
 }  // namespace
