@@ -3,6 +3,7 @@
 #     TEXT                  is for folders without computations; JSON is among their precompiled headers
 #     OWN_HEADERS           is for targets whose options differ from those of the shared precompiled headers
 # thinwall_test(<name> LINKS ...)        makes one GoogleTest program from every .cpp of the current folder, with a ctest entry for each suite
+#     OPTIMISED             is for tests that compute much by themselves
 
 add_library(thinwall_flags INTERFACE)
 target_compile_options(thinwall_flags INTERFACE -Wall -Wextra -Wpedantic -Wsuggest-override
@@ -153,20 +154,22 @@ endfunction()
 # each, takes a minute more. The suites are listed by the program after it was built. Each source has a namespace of its
 # own, named as the file is, so that sources which are compiled as one may have helpers of the same name.
 function(thinwall_test name)
-  cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "OPTIMISED" "" "LINKS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_executable(test_${name} ${sources})
   target_link_libraries(test_${name} PRIVATE thinwall_flags ${ARG_LINKS} GTest::gtest_main)
-  # Tests are compiled without optimisation, in half the time. Templates that a test and a library both hold would then
+  # Without optimisation tests are compiled in half the time. Templates that a test and a library both hold would then
   # be slow in the library, too, if the linker met the test's copy first.
-  target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-O0>)
+  if(NOT ARG_OPTIMISED)
+    target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-O0>)
+  endif()
   thinwall_computing(computing ${ARG_LINKS})
   list(TRANSFORM computing REPLACE "(.+)" "$<TARGET_FILE:\\1>")
   target_link_options(test_${name} PRIVATE "LINKER:--whole-archive" ${computing} "LINKER:--no-whole-archive")
-  if(NOT name STREQUAL "core")
-    target_precompile_headers(test_${name} REUSE_FROM test_core)
-  else()
+  if(ARG_OPTIMISED OR name STREQUAL "core")
     target_precompile_headers(test_${name} PRIVATE ${THINWALL_COMMON_HEADERS} <gtest/gtest.h>)
+  else()
+    target_precompile_headers(test_${name} REUSE_FROM test_core)
   endif()
   if(THINWALL_BATCHES)
     thinwall_batches(test_${name})

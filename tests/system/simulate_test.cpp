@@ -20,10 +20,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string tool_case = benchmark_tool + R"([lobes]
+std::string tool_case() {
+  return benchmark_tool + R"([lobes]
 from = "10000 rpm"
 to = "20000 rpm"
 )";
+}
 
 struct Outcome {
   std::string text;  ///< that the command printed
@@ -31,7 +33,7 @@ struct Outcome {
 };
 
 /// Simulates a case in `folder`, with results in its folder "out".
-Outcome simulate(const fs::path& folder, const std::vector<std::string>& more, const std::string& text = tool_case) {
+Outcome simulate(const fs::path& folder, const std::vector<std::string>& more, const std::string& text = tool_case()) {
   std::ofstream(folder / "case.toml") << text;
   std::vector<std::string> words{
       "thinwall", "simulate", (folder / "case.toml").string(), "--out", (folder / "out").string(), "-q"};
@@ -67,7 +69,7 @@ TEST(Simulate, TellsTheMotionOnBothSidesOfTheBoundary) {
 TEST(Simulate, LeavesNothingWhereItIsRefused) {
   const fs::path folder = scratch("simulate_refused");
   const std::string without_feed = [] {
-    std::string text = tool_case;
+    std::string text = tool_case();
     const std::size_t at = text.find("feed_per_tooth");
     return text.erase(at, text.find('\n', at) + 1 - at);
   }();
@@ -85,7 +87,7 @@ TEST(Simulate, LeavesNothingWhereItIsRefused) {
 /// An arc behind the tool is refused, for no tooth would touch.
 TEST(Simulate, TellsThatNoToothTouches) {
   const fs::path folder = scratch("simulate_air");
-  std::string behind = tool_case;
+  std::string behind = tool_case();
   const std::string radial = "radial_depth = \"0.5 mm\"\nmode = \"down\"";
   behind.replace(behind.find(radial), radial.size(), "entry_angle = \"200 deg\"\nexit_angle = \"300 deg\"");
   const auto [text, code] = simulate(folder, {"--at", "11000 rpm, 0.1 mm"}, behind);
@@ -96,7 +98,7 @@ TEST(Simulate, TellsThatNoToothTouches) {
 /// What runout does to the chips is said once, though lobes and simulation both take the cut.
 TEST(Simulate, TellsOnceThatRunoutKeepsATooth) {
   const fs::path folder = scratch("simulate_runout");
-  std::string text = tool_case;
+  std::string text = tool_case();
   text.insert(text.find("length = "), "runout = [\"0.1 mm\", \"-0.1 mm\"]\n");
   std::ofstream(folder / "case.toml") << text;
   const std::string log = (folder / "out/run.log").string();
@@ -121,7 +123,7 @@ TEST(Simulate, TellsHowFarAMotionHasNotSettled) {
 /// The case's own [simulation] is what an option does not say.
 TEST(Simulate, TakesTheCasesOwnSimulationWithOptionsOnTop) {
   const fs::path folder = scratch("simulate_section");
-  const std::string section = tool_case + R"([simulation]
+  const std::string section = tool_case() + R"([simulation]
 at = "11000 rpm, 1 mm"
 settling_turns = 1000
 turns = 8
@@ -142,7 +144,7 @@ trace = 4
 /// Without a point: nine tenths and eleven tenths of the limiting depth at the case's own speed.
 TEST(Simulate, LooksAtBothSidesOfTheBoundaryWhereNoPointIsGiven) {
   const fs::path folder = scratch("simulate_boundary");
-  std::string text = tool_case;
+  std::string text = tool_case();
   text.insert(text.find("[cutting]\n") + 10, "spindle_speed = \"19000 rpm\"\n");
   const auto [said, code] = simulate(folder, {"--settle", "50", "--turns", "4"}, text);
   EXPECT_EQ(code, 0) << said;
@@ -158,7 +160,7 @@ TEST(Simulate, LooksAtBothSidesOfTheBoundaryWhereNoPointIsGiven) {
 /// are none, and the tables say so instead of failing.
 TEST(Simulate, TellsAVibrationThatOutgrowsTheCutter) {
   const fs::path folder = scratch("simulate_overflow");
-  std::string soft = tool_case;
+  std::string soft = tool_case();
   for (std::size_t at = 0; (at = soft.find("1340049", at)) != std::string::npos; ++at) soft.replace(at, 7, "134");
   soft.replace(soft.find("0.5 mm"), 6, "10 mm");
   soft.replace(soft.find("0.1 mm"), 6, "2 mm");
@@ -172,7 +174,7 @@ TEST(Simulate, TellsAVibrationThatOutgrowsTheCutter) {
 /// `lobes` leaves the simulation of a case out, and what is expected of it.
 TEST(Simulate, ItsFiguresAreNotExpectedOfLobes) {
   const fs::path folder = scratch("simulate_expected");
-  std::ofstream(folder / "case.toml") << tool_case
+  std::ofstream(folder / "case.toml") << tool_case()
                                       << "count = 2\nmost_added = 0\n[simulation]\nat = \"11000 rpm, 1 mm\"\n";
   std::ofstream(folder / "expected.toml")
       << "[[expect]]\nname = \"speed\"\nquantity = "
@@ -190,7 +192,7 @@ TEST(Simulate, TellsProblemsOfItsOptions) {
   EXPECT_EQ(code, 3);
   EXPECT_NE(deep.find("--at: \"11000 rpm, 30 mm\" is deeper than the tool's length"), std::string::npos) << deep;
   const std::string border =
-      tool_case + "[simulation]\nat = \"11000 rpm, 1 mm\"\npaths = \"exact\"\nstart = \"border\"\n";
+      tool_case() + "[simulation]\nat = \"11000 rpm, 1 mm\"\npaths = \"exact\"\nstart = \"border\"\n";
   const auto [settle, refused] = simulate(folder, {"--settle", "10"}, border);
   EXPECT_EQ(refused, 3);
   EXPECT_NE(settle.find("--settle: 10 turns, but all that follow a border are recorded"), std::string::npos) << settle;
@@ -208,7 +210,7 @@ TEST(Simulate, TellsWhatItNeeds) {
   const auto [bad, not_read] = simulate(folder, {"--at", "11000 rpm"});
   EXPECT_EQ(not_read, 2);
   EXPECT_NE(bad.find("--at \"11000 rpm\": a spindle speed and a depth with one comma"), std::string::npos) << bad;
-  std::string without_feed = tool_case;
+  std::string without_feed = tool_case();
   without_feed.replace(without_feed.find("feed_per_tooth"), 1, "# f");
   const auto [feed, no_feed] = simulate(folder, {"--at", "11000 rpm, 1 mm"}, without_feed);
   EXPECT_EQ(no_feed, 3);
