@@ -1,6 +1,7 @@
 """One input of the program, how it is run, and what is wrong with how the program answers."""
 
 import dataclasses
+import math
 import os
 import signal
 import subprocess
@@ -9,8 +10,8 @@ import unicodedata
 CODES = {0: "done", 2: "usage", 3: "invalid case", 4: "unreadable data", 5: "numerical failure", 6: "expectation missed"}
 CRASH_WORDS = ("internal error", "terminate called", "Sanitizer", "runtime error:", "Assertion", "std::", "bad_alloc")
 MOST_SECONDS = 2.0  # of the processor, all threads together, for what is refused
-# The same for what `check` accepts: it computes modes for two seconds at most, and then rows of the part alone and of the
-# supported part, each for study::forecast_limit_s of 2.5 s.
+# The time of the processor that `check` may take for what it accepts: it computes modes for two seconds at most, and then
+# rows of the part alone and of the supported part, each for study::forecast_limit_s of 2.5 s.
 MOST_FORECAST_SECONDS = MOST_SECONDS + 2.0 + 2 * 2.5
 MOST_WAIT = 60      # s, after which a program is said to hang; far from what any input takes
 LONGEST_LINE = 600  # bytes: docs/conventions.md, exit codes
@@ -139,7 +140,8 @@ def wrong_with(given, answer):
         return found + ["refused: " + answer.lines[0]]
     if answer.code == 0 and given.refused:
         found.append("accepted")
-    if answer.seconds > (MOST_FORECAST_SECONDS if answer.code == 0 else MOST_SECONDS) and (answer.code != 0 or checked):
+    most = MOST_SECONDS if answer.code != 0 else MOST_FORECAST_SECONDS if checked else math.inf
+    if answer.seconds > most:
         found.append(f"{answer.seconds:.1f} s of the processor")
     if answer.code in (0, 6):
         return found + (["writes " + ", ".join(answer.written[:3])] if answer.written and checked else [])
