@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "core/dense_eigenvalues.hpp"
-#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/tall_triangle.hpp"
 #include "dynamics/rational_noise.hpp"
 
 namespace thinwall::dynamics {
@@ -28,15 +28,16 @@ using namespace rational;
 /// their number, which is what "relaxed" says: with c₀ = 1 noise would draw the poles towards the lines' start.
 Eigen::VectorXd factor_coefficients(const Lines& lines, const Eigen::MatrixXcd& B) {
   const Index unknowns = B.cols();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> numerator(stacked(lines.weight.asDiagonal() * B));
+  const Eigen::MatrixXd numerator = stacked(lines.weight.asDiagonal() * B);
   const Index combinations = lines.combined.cols();
+  Eigen::MatrixXd both(numerator.rows(), 2 * unknowns);
+  both.leftCols(unknowns) = numerator;
   Eigen::MatrixXd A(combinations * unknowns + 1, unknowns);
   for (Index c = 0; c < combinations; ++c) {
     const Eigen::VectorXcd weighed = lines.weight.cwiseProduct(lines.combined.col(c));
-    Eigen::MatrixXd denominator = stacked(weighed.asDiagonal() * B);
-    denominator.applyOnTheLeft(numerator.householderQ().adjoint());
-    const Eigen::HouseholderQR<Eigen::MatrixXd> rest(denominator.bottomRows(denominator.rows() - unknowns));
-    A.middleRows(c * unknowns, unknowns) = rest.matrixQR().topRows(unknowns).triangularView<Eigen::Upper>();
+    both.rightCols(unknowns) = stacked(weighed.asDiagonal() * B);
+    A.middleRows(c * unknowns, unknowns) =
+        core::tall_triangle(both, 2 * unknowns).bottomRightCorner(unknowns, unknowns);
   }
   const auto count = static_cast<double>(lines.s.size());
   const double size = (lines.weight.asDiagonal() * lines.combined).norm() / count;

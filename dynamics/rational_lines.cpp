@@ -11,6 +11,7 @@
 #include "core/dense_eigenvalues.hpp"
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
+#include "core/tall_triangle.hpp"
 
 namespace thinwall::dynamics::rational {
 
@@ -75,14 +76,17 @@ Eigen::MatrixXcd basis(const Eigen::VectorXcd& s, const Eigen::VectorXcd& poles)
 Eigen::MatrixXd least_squares(Eigen::MatrixXd A, const Eigen::MatrixXd& b) {
   const Eigen::VectorXd length = A.colwise().norm().transpose().cwiseMax(std::numeric_limits<double>::min());
   A *= length.cwiseInverse().asDiagonal();
-  // In blocks, several times as fast, but where columns depend on each other, as those of poles that have met.
+  const Index n = A.cols();
+  Eigen::MatrixXd both(A.rows(), n + b.cols());
+  both << A, b;
+  const Eigen::MatrixXd reduced = core::tall_triangle(both, n);
+  const Eigen::MatrixXd R = reduced.leftCols(n), y = reduced.rightCols(b.cols());
+  // Columns that depend on each other, as those of poles that have met, need the pivots.
   constexpr double dependent = 1e-8;
-  const Eigen::HouseholderQR<Eigen::MatrixXd> blocked(A);
-  const auto diagonal = blocked.matrixQR().diagonal().cwiseAbs();
+  const auto diagonal = R.diagonal().cwiseAbs();
   if (diagonal.minCoeff() > dependent * diagonal.maxCoeff())
-    return length.cwiseInverse().asDiagonal() * blocked.solve(b);
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(A);
-  return length.cwiseInverse().asDiagonal() * qr.solve(b);
+    return length.cwiseInverse().asDiagonal() * R.triangularView<Eigen::Upper>().solve(y);
+  return length.cwiseInverse().asDiagonal() * Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(R).solve(y);
 }
 
 Lines lines_of(const Eigen::VectorXd& hz, const std::vector<Eigen::MatrixXcd>& H) {

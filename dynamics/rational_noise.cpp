@@ -6,6 +6,7 @@
 
 #include "core/dense_factorisations.hpp"
 #include "core/interrupt.hpp"
+#include "core/tall_triangle.hpp"
 
 namespace thinwall::dynamics::rational {
 
@@ -62,10 +63,9 @@ Eigen::VectorXd pole_step(const Lines& lines, const Fit& fit, double damping) {
   const Eigen::MatrixXd D = stacked(lines.weight.asDiagonal() * basis_slope(lines.s, fit.poles));
   const Eigen::MatrixXd slope = D.transpose() * stacked(weighed_rest(lines, fit));
   const Eigen::MatrixXd A = stacked(lines.weight.asDiagonal() * basis(lines.s, fit.poles));
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(A);
-  Eigen::MatrixXd turned = D;
-  turned.applyOnTheLeft(qr.householderQ().adjoint());
-  const auto beside = turned.bottomRows(turned.rows() - A.cols());
+  Eigen::MatrixXd both(A.rows(), A.cols() + D.cols());
+  both << A, D;
+  const Eigen::MatrixXd beside = core::tall_triangle(both, both.cols()).bottomRightCorner(D.cols(), D.cols());
   const Eigen::MatrixXd square = beside.transpose() * beside;
   Eigen::MatrixXd G = Eigen::MatrixXd::Zero(D.cols(), D.cols());
   Eigen::VectorXd g = Eigen::VectorXd::Zero(D.cols());
