@@ -57,9 +57,15 @@ COARSE = {
     "cantilever-wall": ("part.mesh.tolerance=0.05", "lobes.count=10"),
     "huynh-2017": ("lobes.count=5",),
     "huynh-2017-support": ("lobes.count=3",),
-    "irb6660-measured": ("part.mesh.tolerance=0.05", "lobes.count=3"),
+    "irb6660-measured": (
+        "part.mesh.tolerance=0.05",
+        "lobes.count=3",
+        "response.to=6 kHz",
+        "response.lines=2999",
+        "reduction.up_to=10 kHz",
+    ),
     "posture-map": ("lobes.count=20",),
-    "pocketed-rib": ("part.mesh.tolerance=0.1", "part.mesh.order=4", "lobes.count=10"),
+    "pocketed-rib": ("part.mesh.tolerance=0.1", "part.mesh.order=3", "lobes.count=10"),
 }
 
 

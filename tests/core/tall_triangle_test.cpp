@@ -1,0 +1,71 @@
+#include "core/tall_triangle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/dense_factorisations.hpp"
+#include "core/parallel.hpp"
+
+using namespace thinwall;
+using Eigen::Index;
+
+namespace {
+
+/// Rows of numbers in [-1, 1] without a pattern, the same in every run.
+Eigen::MatrixXd scattered(Index rows, Index columns) {
+  return Eigen::MatrixXd::NullaryExpr(rows, columns, [](Index i, Index j) {
+    return std::sin(12.9898 * static_cast<double>(i + 1) + 78.233 * static_cast<double>((j + 1) * (j + 2)));
+  });
+}
+
+Eigen::MatrixXd orthogonal(Index rows, Index columns) {
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(scattered(rows, columns));
+  return qr.householderQ() * Eigen::MatrixXd::Identity(rows, columns);
+}
+
+}  // namespace
+
+// 9001 rows make 35 pieces of 256 and more, and their triangles, of 1120 rows, four; 300 rows make one.
+TEST(TallTriangle, HasTheSquareOfTheMatrix) {
+  for (const Index rows : {Index{32}, Index{300}, Index{9001}}) {
+    const Eigen::MatrixXd A = scattered(rows, 32), R = core::tall_triangle(A, 32);
+    EXPECT_EQ(R.rows(), 32);
+    EXPECT_TRUE(R.isUpperTriangular(0.0));
+    EXPECT_LT((R.transpose() * R - A.transpose() * A).norm(), 1e-13 * A.squaredNorm()) << rows;
+  }
+}
+
+// The square of a matrix holds no singular value below 1e-8 of the largest, because it is rounded; reflections err by
+// round-off of the largest.
+TEST(TallTriangle, KeepsSingularValuesThatTheSquareLoses) {
+  constexpr Index n = 13;
+  const Eigen::VectorXd values =
+      Eigen::VectorXd::LinSpaced(n, 0.0, -12.0).unaryExpr([](double e) { return std::pow(10.0, e); });
+  const Eigen::MatrixXd A = orthogonal(5000, n) * values.asDiagonal() * orthogonal(n, n).transpose();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(core::tall_triangle(A, n));
+  EXPECT_LT((svd.singularValues() - values).cwiseAbs().maxCoeff(), 1e-14);
+}
+
+TEST(TallTriangle, SolvesLeastSquaresByItsFirstColumns) {
+  const Eigen::MatrixXd Q = orthogonal(4000, 24), A = Q.leftCols(20) * scattered(20, 20), x = scattered(20, 4);
+  Eigen::MatrixXd both(4000, 24);
+  both << A, A * x + Q.rightCols(4);  // the last four columns of Q are at right angles to A
+  const Eigen::MatrixXd reduced = core::tall_triangle(both, 20);
+  ASSERT_EQ(reduced.rows(), 20);
+  ASSERT_EQ(reduced.cols(), 24);
+  const Eigen::MatrixXd R = reduced.leftCols(20);
+  const Eigen::MatrixXd found = R.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd(reduced.rightCols(4)));
+  EXPECT_LT((found - x).norm(), 1e-10 * x.norm());
+}
+
+TEST(TallTriangle, IsTheSameForAnyNumberOfThreads) {
+  const Eigen::MatrixXd A = scattered(6000, 40);
+  const int usual = core::thread_count();
+  core::set_thread_count(1);
+  const Eigen::MatrixXd one = core::tall_triangle(A, 40);
+  core::set_thread_count(3);
+  const Eigen::MatrixXd three = core::tall_triangle(A, 40);
+  core::set_thread_count(usual);
+  EXPECT_EQ(one, three);
+}
