@@ -30,8 +30,8 @@ Eigen::MatrixXd reduced(const Eigen::MatrixXd& piece, Index columns) {
 
 Eigen::MatrixXd tall_triangle(const Eigen::MatrixXd& A, Index columns) {
   assert(columns <= A.cols() && columns <= A.rows());
-  // Taller pieces leave fewer triangles, which cost a share of 1/6 more here, and fit less into the cache.
-  constexpr Index least_rows = 256, rows_a_column = 6;
+  // Taller pieces leave fewer triangles, which cost a share of 1/6 here at most, and fit less into the cache.
+  constexpr Index least_rows = 1024, rows_a_column = 6;
   const Index count = A.rows() / std::max(least_rows, rows_a_column * columns);
   check_interrupt();
   if (count < 2) return reduced(A, columns);
