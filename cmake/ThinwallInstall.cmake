@@ -12,7 +12,7 @@ if(CMAKE_LIBRARY_ARCHITECTURE AND CMAKE_INSTALL_LIBDIR STREQUAL lib)  # Debian's
   set(CMAKE_INSTALL_LIBDIR lib/${CMAKE_LIBRARY_ARCHITECTURE})
 endif()
 
-set(THINWALL_FOLDERS core dynamics linalg distributed mesh fem reduction robot coupling regression identification milling learning posture io setup case study)
+set(THINWALL_FOLDERS core linalg dynamics distributed mesh fem reduction robot coupling regression identification milling learning posture io setup case study)
 set(thinwall_version_of_interface ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 
 # All objects of all folders; the archives beside them only state which other libraries they need.

@@ -1,7 +1,7 @@
 #pragma once
 // The headers of core/ that other programs may include.
 // Internal: atomic_file, dense_eigenvalues, dense_factorisations, dense_products, draws, faults, fields, gauss_rule,
-// median, message_line, mode_signs, nearest_name, pieces, split, synonyms, tall_triangle.
+// median, message_line, mode_signs, nearest_name, pieces, split, synonyms.
 
 #include "core/eigen_alignment.hpp"
 #include "core/error.hpp"

@@ -11,8 +11,8 @@
 #include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
-#include "core/tall_triangle.hpp"
 #include "dynamics/rational_noise.hpp"
+#include "linalg/tall_triangle.hpp"
 
 namespace thinwall::dynamics {
 
@@ -37,7 +37,7 @@ Eigen::VectorXd factor_coefficients(const Lines& lines, const Eigen::MatrixXcd& 
     const Eigen::VectorXcd weighed = lines.weight.cwiseProduct(lines.combined.col(c));
     both.rightCols(unknowns) = stacked(weighed.asDiagonal() * B);
     A.middleRows(c * unknowns, unknowns) =
-        core::tall_triangle(both, 2 * unknowns).bottomRightCorner(unknowns, unknowns);
+        linalg::tall_triangle(both, 2 * unknowns).bottomRightCorner(unknowns, unknowns);
   }
   const auto count = static_cast<double>(lines.s.size());
   const double size = (lines.weight.asDiagonal() * lines.combined).norm() / count;

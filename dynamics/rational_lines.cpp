@@ -11,7 +11,7 @@
 #include "core/dense_eigenvalues.hpp"
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
-#include "core/tall_triangle.hpp"
+#include "linalg/tall_triangle.hpp"
 
 namespace thinwall::dynamics::rational {
 
@@ -79,7 +79,7 @@ Eigen::MatrixXd least_squares(Eigen::MatrixXd A, const Eigen::MatrixXd& b) {
   const Index n = A.cols();
   Eigen::MatrixXd both(A.rows(), n + b.cols());
   both << A, b;
-  const Eigen::MatrixXd reduced = core::tall_triangle(both, n);
+  const Eigen::MatrixXd reduced = linalg::tall_triangle(both, n);
   const Eigen::MatrixXd R = reduced.leftCols(n), y = reduced.rightCols(b.cols());
   // Columns that depend on each other, as those of poles that have met, need the pivots.
   constexpr double dependent = 1e-8;

@@ -6,7 +6,7 @@
 
 #include "core/dense_factorisations.hpp"
 #include "core/interrupt.hpp"
-#include "core/tall_triangle.hpp"
+#include "linalg/tall_triangle.hpp"
 
 namespace thinwall::dynamics::rational {
 
@@ -65,7 +65,7 @@ Eigen::VectorXd pole_step(const Lines& lines, const Fit& fit, double damping) {
   const Eigen::MatrixXd A = stacked(lines.weight.asDiagonal() * basis(lines.s, fit.poles));
   Eigen::MatrixXd both(A.rows(), A.cols() + D.cols());
   both << A, D;
-  const Eigen::MatrixXd beside = core::tall_triangle(both, both.cols()).bottomRightCorner(D.cols(), D.cols());
+  const Eigen::MatrixXd beside = linalg::tall_triangle(both, both.cols()).bottomRightCorner(D.cols(), D.cols());
   const Eigen::MatrixXd square = beside.transpose() * beside;
   Eigen::MatrixXd G = Eigen::MatrixXd::Zero(D.cols(), D.cols());
   Eigen::VectorXd g = Eigen::VectorXd::Zero(D.cols());

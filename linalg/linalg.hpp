@@ -1,7 +1,7 @@
 #pragma once
 // The headers of linalg/ that other programs may include.
 // Internal: cholmod, condensed_factor, divided_problem, domains, factor_bytes, large_array, matrix_graph, minimum_fill,
-// supernodal_factor, supernodal_solve, symbolic_factor, tall, tree_cut.
+// supernodal_factor, supernodal_solve, symbolic_factor, tall, tall_triangle, tree_cut.
 
 #include "core/eigen_alignment.hpp"
 #include "linalg/block_lanczos.hpp"

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace thinwall::core {
+namespace thinwall::linalg {
 
 /// The first `columns` rows of Qᵀ A, with A = [A₁ A₂] and A₁ = Q R its first `columns` columns: [R Qᵀ A₂]. The x that
 /// minimises ‖A₁ x − A₂‖ follows from R x = Qᵀ A₂, and with `columns` all of A the result is its triangular factor.
@@ -15,4 +15,4 @@ namespace thinwall::core {
 /// `columns`. Returns columns × columns of A. Throws Interrupted. Cost: 2.4 rows columns² flops for R.
 [[nodiscard]] Eigen::MatrixXd tall_triangle(const Eigen::MatrixXd& A, Eigen::Index columns);
 
-}  // namespace thinwall::core
+}  // namespace thinwall::linalg
