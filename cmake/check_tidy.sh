@@ -2,14 +2,14 @@
 # Runs clang-tidy with .clang-tidy over the program's sources; fails on any finding.
 #   check_tidy.sh               the whole program, without the tests
 #   check_tidy.sh --changed     files changed since the last release, or in the last twenty commits if there is none, and
-#                               a share of the others that differs from day to day, in less than two minutes on two idle processors
+#                               a share of the others that differs from day to day, in some two minutes on two idle processors
 #   check_tidy.sh PATTERN       files whose paths match, each by itself
 # Most of the time goes to the headers of Eigen and CGAL. Files are therefore analysed in the batches in which they are
 # compiled (THINWALL_BATCHES), which takes a third of the time, and files of a pattern each by itself. Nothing is built.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 
-at_least=12 at_most=20  # batches: what changed, up to the second, and of the rest so many as make up the first
+at_least=8 at_most=12  # batches: what changed, up to the second, and of the rest so many as make up the first
 build=$PWD/build/tidy
 folders="core|dynamics|linalg|distributed|mesh|fem|reduction|robot|coupling|regression|identification|milling|learning|posture|io|setup|case|study|report|app"
 

@@ -239,7 +239,7 @@ TEST(SimulationRun, AsksForNoGrowthThatCannotBeHad) {
 /// cannot follow them; both are told.
 TEST(SimulationRun, TellsThatABoundaryIsNotKnownAndStepsAreTooFew) {
   std::string text = benchmark_tool;
-  text.insert(text.find("[cutting]\n") + 10, "spindle_speed = \"50 rpm\"\n");
+  text.insert(text.find("[cutting]\n") + 10, "spindle_speed = \"100 rpm\"\n");
   std::string warnings;
   const core::MessageListener before =
       core::set_message_listener([&](core::MessageLevel, const std::string& said) { warnings += said + '\n'; });
@@ -247,7 +247,7 @@ TEST(SimulationRun, TellsThatABoundaryIsNotKnownAndStepsAreTooFew) {
   const Case source = parse_case(text + "[simulation]\nsettling_turns = 0\nturns = 1\n", ".");
   (void)study::run(source, cases::variation_of(source), nothing, {});
   (void)core::set_message_listener(before);
-  EXPECT_NE(warnings.find("the boundary at 50 rpm is not known well"), std::string::npos) << warnings;
+  EXPECT_NE(warnings.find("the boundary at 100 rpm is not known well"), std::string::npos) << warnings;
   EXPECT_NE(warnings.find("steps there cannot follow it"), std::string::npos) << warnings;
 }
 
