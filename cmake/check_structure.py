@@ -12,7 +12,7 @@ import re
 import sys
 
 FOLDERS = ("core", "dynamics", "linalg", "distributed", "mesh", "fem", "reduction", "robot", "coupling", "regression", "identification",
-           "milling", "posture", "io", "setup", "case", "study", "report", "app", "python", "bench", "fuzz")
+           "milling", "learning", "posture", "io", "setup", "case", "study", "report", "app", "python", "bench", "fuzz")
 MOST_FILES = 60
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.M)
 

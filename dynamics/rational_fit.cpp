@@ -24,14 +24,14 @@ using std::numbers::pi;
 using namespace rational;
 
 /// The coefficients of the factor (c₀ + Σ c_n φ_n), c₀ last. Of each combination only what no numerator can reproduce
-/// takes part (the QR of its own unknowns is eliminated); the sum of the factor's real part over the lines is held at
-/// their number, which is what "relaxed" says: with c₀ = 1 noise would draw the poles towards the lines' start.
+/// takes part: of the triangle of [W B, W_c B] the lower right block, in which the numerator's unknowns are eliminated
+/// (Deschrijver et al. 2008). The sum of the factor's real part over the lines is held at their number, which is what
+/// "relaxed" says: with c₀ = 1 noise would draw the poles towards the lines' start.
 Eigen::VectorXd factor_coefficients(const Lines& lines, const Eigen::MatrixXcd& B) {
   const Index unknowns = B.cols();
-  const Eigen::MatrixXd numerator = stacked(lines.weight.asDiagonal() * B);
   const Index combinations = lines.combined.cols();
-  Eigen::MatrixXd both(numerator.rows(), 2 * unknowns);
-  both.leftCols(unknowns) = numerator;
+  Eigen::MatrixXd both(2 * B.rows(), 2 * unknowns);
+  both.leftCols(unknowns) = stacked(lines.weight.asDiagonal() * B);
   Eigen::MatrixXd A(combinations * unknowns + 1, unknowns);
   for (Index c = 0; c < combinations; ++c) {
     const Eigen::VectorXcd weighed = lines.weight.cwiseProduct(lines.combined.col(c));

@@ -23,8 +23,9 @@ namespace {
 
 using Eigen::Index;
 
-/// The rows of a piece reduced to as many as it has columns to reduce. LAPACK's dgeqrt reduces a block of columns
-/// recursively, so that nearly all of its work are products of matrices; Eigen's QR takes twice the time.
+/// The triangle of a piece's first `columns` columns, and beside it what their reflections make of the others' first
+/// rows. LAPACK's dgeqrt reduces a block of columns recursively, so that nearly all of its work is products of
+/// matrices; Eigen's QR, which reduces a block column by column, takes twice the time.
 Eigen::MatrixXd reduced(Eigen::MatrixXd piece, Index columns) {
   const int m = static_cast<int>(piece.rows()), n = static_cast<int>(columns), block = std::min(24, n);
   const int others = static_cast<int>(piece.cols()) - n;

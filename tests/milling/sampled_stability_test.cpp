@@ -433,22 +433,5 @@ TEST(Resonances, AreFoundOnceAndNoiseIsNone) {
   }
 }
 
-TEST(SampledReceptance, RefusesWhatCannotBeUsed) {
-  const ContactGrid grid = contact_grid(benchmark_process(0.1), Eigen::Vector3d::UnitX(), {1, 6});
-  const SampledReceptance good{Eigen::VectorXd::LinSpaced(7, 1.0, 7.0),
-                               std::vector<Eigen::Matrix3cd>(7, Eigen::Matrix3cd::Identity())};
-  SampledReceptance bad = good;
-  bad.H[3](1, 2) = std::nan("");
-  EXPECT_THROW((void)harmonic_gain(bad, grid, 5000.0), core::InputError);
-  bad = good;
-  bad.frequency_hz(2) = 1.5;
-  EXPECT_THROW((void)harmonic_gain(bad, grid, 5000.0), core::InputError);
-  bad = good;
-  bad.H.pop_back();
-  EXPECT_THROW((void)harmonic_gain(bad, grid, 5000.0), core::InputError);
-  bad = {Eigen::VectorXd::LinSpaced(5, 1.0, 5.0), std::vector<Eigen::Matrix3cd>(5, Eigen::Matrix3cd::Identity())};
-  EXPECT_THROW((void)harmonic_gain(bad, grid, 5000.0), core::InputError);
-}
-
 }  // namespace
 }  // namespace thinwall::milling::sampled_stability_test
