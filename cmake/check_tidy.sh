@@ -9,7 +9,7 @@
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 
-at_least=8 at_most=12  # batches: what changed, up to the second, and of the rest so many as make up the first
+at_least=6 at_most=10  # batches: what changed, up to the second, and of the rest so many as make up the first
 build=$PWD/build/tidy
 folders="core|dynamics|linalg|distributed|mesh|fem|reduction|robot|coupling|regression|identification|milling|learning|posture|io|setup|case|study|report|app"
 

@@ -34,7 +34,7 @@ std::string status(const CoupledResponse& coupled) {
   return "regularised";
 }
 
-py::tuple members_of(const Contact& contact) {
+py::tuple members_of_contact(const Contact& contact) {
   py::list springs;
   for (const auto& s : contact.springs)
     springs.append(py::make_tuple(s.direction, s.stiffness, s.damping, s.loss_factor, static_cast<int>(s.kind)));
@@ -67,7 +67,7 @@ void bind_coupling(py::module_& module) {
              return "<Contact of " + c.point_a + " with " + c.point_b + " along " + std::to_string(c.springs.size()) +
                     " directions>";
            })
-      .def(py::pickle(&members_of, &contact_of));
+      .def(py::pickle(&members_of_contact, &contact_of));
   py::class_<CoupledResponse>(module, "CoupledResponse", "A coupled response with the condition of its solution.")
       .def_readonly("response", &CoupledResponse::response, "The Response between all DOFs of the components.")
       .def_readonly("kernel_condition", &CoupledResponse::kernel_condition,

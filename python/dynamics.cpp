@@ -106,7 +106,7 @@ std::string band(const dynamics::FrequencyAxis& axis) {
          core::number_text(axis.hz(axis.hz.size() - 1), 6) + " Hz";
 }
 
-py::tuple members_of(const ResponseModel& model) {
+py::tuple members_of_response(const ResponseModel& model) {
   return py::make_tuple(model.axis.hz, one_piece(model), state_of(model.responses), state_of(model.forces));
 }
 
@@ -198,7 +198,7 @@ void bind_response(py::module_& module) {
              return "<Response at " + band(m.axis) + "; " + listed("responses", names(m.responses)) + "; " +
                     listed("forces", names(m.forces)) + ">";
            })
-      .def(py::pickle(&members_of, &response_of));
+      .def(py::pickle(&members_of_response, &response_of));
 }
 
 }  // namespace

@@ -80,8 +80,8 @@ py::dict diagram_of(const std::vector<identification::OrderPoles>& orders) {
   return result;
 }
 
-py::dict dict_of(const ResponseFit& fit, const dynamics::ResponseModel& response,
-                 const std::vector<std::string>& warnings) {
+py::dict fit_as_dict(const ResponseFit& fit, const dynamics::ResponseModel& response,
+                     const std::vector<std::string>& warnings) {
   py::dict result;
   result["frequency_hz"] = of_modes(fit, [](const FittedMode& mode) { return mode.frequency_hz; });
   result["damping_ratio"] = of_modes(fit, [](const FittedMode& mode) { return mode.damping_ratio; });
@@ -123,7 +123,7 @@ py::dict fit_modes(const dynamics::ResponseModel& response, const std::string& r
     fit = identification::fit_response(response, of_lines, options);
     warnings = identification::doubts_about(fit, response.responses, response.forces, options);
   }
-  py::dict result = dict_of(fit, response, warnings);
+  py::dict result = fit_as_dict(fit, response, warnings);
   result["diagram"] = diagram_of(poles_hz ? diagram : fit.found.diagram);
   return result;
 }

@@ -60,7 +60,7 @@ std::string represented(const Mesh& mesh) {
          " corners>";
 }
 
-py::tuple members_of(const Mesh& mesh) {
+py::tuple members_of_mesh(const Mesh& mesh) {
   py::object nodes = py::none();
   if (mesh.nodes) nodes = py::make_tuple(mesh.nodes->order, mesh.nodes->positions, mesh.nodes->elements);
   return py::make_tuple(mesh.tets.vertices, mesh.tets.tets, nodes);
@@ -148,7 +148,7 @@ void bind_mesh(py::module_& module) {
           "aspect_ratio", [](const Mesh& mesh) { return mesh::quality(mesh.tets).aspect_ratio; },
           "The longest edge over the smallest height of the worst tetrahedron.")
       .def("__repr__", represented)
-      .def(py::pickle(&members_of, &mesh_of));
+      .def(py::pickle(&members_of_mesh, &mesh_of));
   module.def(
       "box_mesh", box_mesh, "size"_a, "element_size"_a, "layers"_a = 1,
       "spots"_a = std::vector<std::pair<Eigen::Vector2d, double>>{}, LongCallGuard(),

@@ -165,7 +165,7 @@ std::vector<std::string> words(const Lobes& lobes, Member milling::LobeRow::*mem
   return result;
 }
 
-py::tuple members_of(const milling::LobeRow& row) {
+py::tuple members_of_row(const milling::LobeRow& row) {
   py::list crossings;
   for (const auto& point : row.crossings)
     crossings.append(py::make_tuple(point.depth_m, point.chatter_frequency_hz, static_cast<int>(point.kind),
@@ -197,7 +197,7 @@ milling::LobeRow row_of(const py::tuple& t) {
 
 py::tuple members_of_chart(const Lobes& lobes) {
   py::list rows;
-  for (const auto& row : lobes.rows) rows.append(members_of(row));
+  for (const auto& row : lobes.rows) rows.append(members_of_row(row));
   return py::make_tuple(lobes.method, lobes.residual_share, rows);
 }
 

@@ -67,7 +67,7 @@ std::vector<std::string> check(const std::filesystem::path& path, const OneOrMor
 }
 
 /// A case from a file is read again where it is unpickled; one from text is its text.
-py::tuple members_of(const LoadedCase& loaded) {
+py::tuple members_of_case(const LoadedCase& loaded) {
   const bool is_file = !loaded.path.empty();
   return py::make_tuple(is_file, is_file ? std::filesystem::absolute(loaded.path).string() : loaded.value.source,
                         std::filesystem::absolute(loaded.value.folder).string(), loaded.overrides);
@@ -162,7 +162,7 @@ Eigen::MatrixXd bands_of(const std::vector<posture::MappedPlace>& map, const Of&
   return bands;
 }
 
-py::dict dict_of(const study::PostureStudy& found) {
+py::dict postures_as_dict(const study::PostureStudy& found) {
   const std::string figures = report::json_of(report::summary_of(found)).dump();
   py::dict result = py::module_::import("json").attr("loads")(figures);
   if (!found.map.empty()) {
@@ -201,7 +201,7 @@ py::dict study_postures(const LoadedCase& loaded, const std::optional<OneOrMore<
   questions.path = path.value_or(Eigen::MatrixXd());
   questions.candidates = candidates.value_or(Eigen::MatrixXd());
   questions.split_hz = split_hz;
-  return dict_of(answers(loaded, questions));
+  return postures_as_dict(answers(loaded, questions));
 }
 
 void bind_case(py::module_& module) {
@@ -228,7 +228,7 @@ void bind_case(py::module_& module) {
              return "<Case " + name + (c.value.title.empty() ? "" : ": " + c.value.title) +
                     (c.overrides.empty() ? "" : "; " + listed("overrides", c.overrides)) + ">";
            })
-      .def(py::pickle(&members_of, &case_of));
+      .def(py::pickle(&members_of_case, &case_of));
 }
 
 void bind_results(py::module_& module) {

@@ -10,13 +10,15 @@
 #include <random>
 #include <sstream>
 #include <tuple>
+#include <utility>
 
-#include "app/command_line.hpp"
+#include "app/case_run.hpp"
 #include "app/lobes_input.hpp"
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
 #include "io/frf/mat_response.hpp"
 #include "io/results/csv_table.hpp"
+#include "tests/app/command_call.hpp"
 #include "tests/case/case_text.hpp"
 #include "tests/core/temporary_folder.hpp"
 
@@ -25,12 +27,6 @@ namespace thinwall::tests {
 using namespace setup;
 using namespace cases;
 using namespace app;
-
-/// What a command printed, and its exit code.
-struct Outcome {
-  int code = -1;
-  std::string out, err;
-};
 
 inline const std::string tool_toml = R"([tool]
 teeth = 2
@@ -94,14 +90,9 @@ class LobesCommand : public testing::Test {
   }
   /// Runs `thinwall lobes` with words after it; results go to results/.
   [[nodiscard]] Outcome lobes(std::vector<std::string> words) const {
-    words.insert(words.begin(), {"thinwall", "lobes"});
+    words.insert(words.begin(), "lobes");
     words.insert(words.end(), {"--out", path("results"), "-q"});
-    std::vector<const char*> argv;
-    argv.reserve(words.size());
-    for (const auto& word : words) argv.push_back(word.c_str());
-    std::ostringstream out, err;
-    const int code = run_command_line(static_cast<int>(argv.size()), argv.data(), run_case, out, err);
-    return {code, out.str(), err.str()};
+    return call(std::move(words), run_case);
   }
   [[nodiscard]] Outcome frf(const std::string& file, std::vector<std::string> more = {},
                             const std::string& quantity = "receptance", const std::string& unit = "m/N") const {

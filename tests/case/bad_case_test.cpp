@@ -386,5 +386,16 @@ TEST(Cases, EveryCaseOfTheProjectIsRight) {
   }
 }
 
+TEST(BadMesh, ToleranceAndSizeOutOfRangeOrAtOddsAreRefused) {
+  expect_problem("element_size = \"12 mm\"", "tolerance = 0.5", "part.mesh.tolerance");
+  expect_problem("element_size = \"12 mm\"", "tolerance = 1e-9", "part.mesh.tolerance");
+  expect_problem("element_size = \"12 mm\"", "element_size = \"12 mm\"\ntolerance = 0.01", "nothing is estimated");
+  expect_problem("element_size = \"12 mm\"", "element_size = \"12 mm\"\ntime_budget = \"9 s\"", "nothing is refined");
+  expect_problem("element_size = \"12 mm\"", "time_budget = \"0 s\"", "part.mesh.time_budget");
+  expect_problem("element_size = \"12 mm\"", "element_size = \"automatic\"", "auto");
+  expect_problem("element_size = \"12 mm\"", "element_size = \"-1 mm\"", "above 0");
+  expect_problem("element_size = \"12 mm\"", "quality = 1.2", "belongs to boxes with a given element_size");
+}
+
 }  // namespace
 }  // namespace thinwall::tests::bad_case_test

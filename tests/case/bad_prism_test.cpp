@@ -1,4 +1,4 @@
-// A part of an outline with zones, holes and bends, and its mesh, that cannot be: where, what, and what to do.
+// A part of an outline with zones, holes and bends that cannot be: where, what, and what to do.
 
 #include <gtest/gtest.h>
 
@@ -68,17 +68,6 @@ TEST(BadPrism, GeometryThatIsNoPartIsRefusedWithItsPlace) {
   expect_pocket_problem(R"(radius = "200 mm")", R"(radius = "10 mm")", "360");
   expect_pocket_problem(R"(radius = "200 mm")", R"(radius = "200 mm", along = "z")", "thickness");
   expect_pocket_problem(R"(["50 mm", "60 mm", "3 mm"])", R"(["50 mm", "61 mm", "3 mm"])", "outside the part");
-}
-
-TEST(BadMesh, ToleranceAndSizeOutOfRangeOrAtOddsAreRefused) {
-  expect_problem("element_size = \"12 mm\"", "tolerance = 0.5", "part.mesh.tolerance");
-  expect_problem("element_size = \"12 mm\"", "tolerance = 1e-9", "part.mesh.tolerance");
-  expect_problem("element_size = \"12 mm\"", "element_size = \"12 mm\"\ntolerance = 0.01", "nothing is estimated");
-  expect_problem("element_size = \"12 mm\"", "element_size = \"12 mm\"\ntime_budget = \"9 s\"", "nothing is refined");
-  expect_problem("element_size = \"12 mm\"", "time_budget = \"0 s\"", "part.mesh.time_budget");
-  expect_problem("element_size = \"12 mm\"", "element_size = \"automatic\"", "auto");
-  expect_problem("element_size = \"12 mm\"", "element_size = \"-1 mm\"", "above 0");
-  expect_problem("element_size = \"12 mm\"", "quality = 1.2", "belongs to boxes with a given element_size");
 }
 
 }  // namespace

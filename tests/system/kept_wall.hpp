@@ -1,5 +1,5 @@
 #pragma once
-// A small wall with a robot behind, its run in a folder, and its text with something replaced.
+// A small wall with a robot behind, and its run in a folder.
 
 #include <gtest/gtest.h>
 
@@ -9,6 +9,7 @@
 #include "app/case_run.hpp"
 #include "case/reader.hpp"
 #include "report/summary/summary_json.hpp"
+#include "tests/replaced.hpp"
 
 namespace thinwall::tests {
 
@@ -67,13 +68,6 @@ tolerance = 0.01
 [reduction]
 modes = 6
 )";
-}
-
-/// The text with the first `from` in it replaced; it must be there.
-inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
 }
 
 /// The summary of a run of the text in a folder, which takes over what an earlier one there has kept unless `fresh`.

@@ -8,6 +8,7 @@
 
 #include "coupling/spatial.hpp"
 #include "fem/beam.hpp"
+#include "tests/replaced.hpp"
 #include "tests/system/run_in_folder.hpp"
 #include "tests/system/swapped_tools.hpp"
 #include "tests/verification/tool_swap/machine.hpp"
@@ -77,12 +78,6 @@ to = "20000 rpm"
 count = 8
 most_added = 0
 )";
-}
-
-inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
 }
 
 inline fs::path own_folder() {
