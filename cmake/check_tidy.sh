@@ -1,15 +1,15 @@
 #!/bin/bash
 # Runs clang-tidy with .clang-tidy over the program's sources; fails on any finding.
 #   check_tidy.sh               the whole program, without the tests
-#   check_tidy.sh --changed     files changed since the last release, or in the last twenty commits if there is none, and
-#                               a share of the others that differs from day to day, in some two minutes on two idle processors
+#   check_tidy.sh --changed     ten batches of files: up to seven that have changed since the last release, or in the last
+#                               twenty commits if there is none, and of the others a share that differs from day to day
 #   check_tidy.sh PATTERN       files whose paths match, each by itself
 # Most of the time goes to the headers of Eigen and CGAL. Files are therefore analysed in the batches in which they are
 # compiled (THINWALL_BATCHES), which takes a third of the time, and files of a pattern each by itself. Nothing is built.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 
-at_least=6 at_most=10  # batches: what changed, up to the second, and of the rest so many as make up the first
+most=10 share=3  # batches that are read, and how many of them at least are of those that have not changed
 build=$PWD/build/tidy
 folders="core|dynamics|linalg|distributed|mesh|fem|reduction|robot|coupling|regression|identification|milling|learning|posture|io|setup|case|study|report|app"
 
@@ -35,14 +35,14 @@ changed_sources() {  # a header stands for the source of its name, or, without o
   done | sort -u
 }
 
-# Writes all batches to the file in_turn, those with a changed source first, and sets `chosen`, how many are read. Where
-# in the list the rest begins follows from the commit's day.
-in_turn() {
+# Writes the batches that are read to the file chosen, and their patterns to the file patterns. Where the share of those
+# that have not changed begins follows from the commit's day.
+choose() {
   local all day first batch touched=() others=()
   changed_sources >"$build/changed"
   mapfile -t all < <(batches | sort -u)
   day=$(($(git log -1 --format=%ct 2>/dev/null || date +%s) / 86400))
-  first=$((day * at_least % ${#all[@]}))
+  first=$((day * share % ${#all[@]}))
   for batch in "${all[@]:first}" "${all[@]:0:first}"; do
     if { echo "$batch"; grep -h '^#include' "$batch"; } | grep -qFf "$build/changed"; then
       touched+=("$batch")
@@ -50,8 +50,10 @@ in_turn() {
       others+=("$batch")
     fi
   done
-  printf '%s\n' "${touched[@]}" "${others[@]}" | sed '/^$/d' >"$build/in_turn"
-  chosen=$((${#touched[@]} < at_least ? at_least : ${#touched[@]} > at_most ? at_most : ${#touched[@]}))
+  touched=("${touched[@]:0:most - share}")
+  printf '%s\n' "${touched[@]}" "${others[@]:0:most - ${#touched[@]}}" | sed '/^$/d' >"$build/chosen"
+  sed 's/.*/^&$/' "$build/chosen" >"$build/patterns"
+  printf '%d of %d batches of sources\n' "$(wc -l <"$build/chosen")" "${#all[@]}"
 }
 
 case ${1:-} in
@@ -61,9 +63,7 @@ case ${1:-} in
     ;;
   --changed)
     configure ON
-    in_turn
-    head -n "$chosen" "$build/in_turn" | sed 's/.*/^&$/' >"$build/patterns"
-    printf '%d of %d batches of sources\n' "$(wc -l <"$build/patterns")" "$(wc -l <"$build/in_turn")"
+    choose
     mapfile -t patterns <"$build/patterns"
     analyse "${patterns[@]}"
     ;;

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstddef>
 
+#include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/parallel.hpp"
 #include "linalg/library_threads.hpp"
@@ -30,15 +31,15 @@ Eigen::MatrixXd reduced(Eigen::MatrixXd piece, Index columns) {
   const int m = static_cast<int>(piece.rows()), n = static_cast<int>(columns), block = std::min(24, n);
   const int others = static_cast<int>(piece.cols()) - n;
   Eigen::MatrixXd T(block, n), work(block, std::max(n, others));
-  int info = 0;
+  int info = 0, info_of_product = 0;
   dgeqrt_(&m, &n, &block, piece.data(), &m, T.data(), &block, work.data(), &info);
-  assert(info == 0);
   if (others > 0) {
     const char left = 'L', transposed = 'T';
     dgemqrt_(&left, &transposed, &m, &others, &n, &block, piece.data(), &m, T.data(), &block, piece.col(columns).data(),
-             &m, work.data(), &info, 1, 1);
-    assert(info == 0);
+             &m, work.data(), &info_of_product, 1, 1);
   }
+  if (info != 0 || info_of_product != 0)
+    throw core::NumericalError("the triangle of a tall matrix: LAPACK refuses its shape; check the number of lines");
   Eigen::MatrixXd top = piece.topRows(columns);
   top.leftCols(columns).triangularView<Eigen::StrictlyLower>().setZero();
   return top;

@@ -26,6 +26,7 @@
 #include "setup/sensor_mass.hpp"
 #include "study/support/support_stage.hpp"
 #include "tests/case/case_text.hpp"
+#include "tests/case/problems_of.hpp"
 #include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::tests::measured_case_test {
@@ -97,15 +98,6 @@ std::string entry(const std::string& owner, const std::string& response, const s
 
 std::string sensor(const std::string& owner, const std::string& at, const std::string& mass) {
   return "[[" + owner + ".sensors]]\nat = \"" + at + "\"\nmass = \"" + mass + "\"\n";
-}
-
-std::vector<Problem> problems_of(const std::string& text, const fs::path& folder = ".") {
-  try {
-    (void)parse_case(text, folder);
-  } catch (const CaseError& error) {
-    return error.problems;
-  }
-  return {};
 }
 
 void expect_problem(const std::string& text, const std::string& key, const std::string& part, const fs::path& folder) {

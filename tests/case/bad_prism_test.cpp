@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <variant>
+
 #include "case/reader.hpp"
 #include "tests/case/case_text.hpp"
 #include "tests/case/problems_of.hpp"

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -10,11 +11,11 @@
 
 namespace thinwall::tests {
 
-/// All problems of a case, or none if it is right.
-inline std::vector<cases::Problem> problems_of(const std::string& text) {
+/// All problems of a case whose files lie in a folder, or none if it is right.
+inline std::vector<cases::Problem> problems_of(const std::string& text, const std::filesystem::path& folder = ".") {
   EXPECT_FALSE(text.empty()) << "the replacement did not match";
   try {
-    (void)cases::parse_case(text, ".");
+    (void)cases::parse_case(text, folder);
   } catch (const cases::CaseError& error) {
     EXPECT_EQ(error.code(), core::ExitCode::invalid_case);
     return error.problems;

@@ -27,8 +27,8 @@ using testing::first_only;
 using testing::FlipLobes;
 using testing::lines_of;
 
-/// With THINWALL_SLOW=1 in the environment there are twenty times as many structures.
-const int structures = std::getenv("THINWALL_SLOW") != nullptr ? 2000 : 100;
+/// With THINWALL_SLOW=1 in the environment there are ten times as many structures.
+const int structures = std::getenv("THINWALL_SLOW") != nullptr ? 2000 : 200;
 
 struct Structure {
   RelativeStructure poles;

@@ -9,16 +9,13 @@
 #include <complex>
 #include <cstdlib>
 #include <fstream>
-#include <map>
 #include <sstream>
 #include <utility>
 
 #include "app/command_line.hpp"
 #include "case/keys.hpp"
 #include "core/atomic_file.hpp"
-#include "io/frf/response_csv.hpp"
 #include "io/program_id.hpp"
-#include "report/page/document.hpp"
 #include "report/summary/summary_json.hpp"
 #include "run_in_folder.hpp"
 #include "study/kept/checkpoint.hpp"

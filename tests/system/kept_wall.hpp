@@ -1,8 +1,7 @@
 #pragma once
 // A small wall with a robot behind, and its run in a folder.
 
-#include <gtest/gtest.h>
-
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 

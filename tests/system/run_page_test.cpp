@@ -4,11 +4,16 @@
 
 #include <cmath>
 #include <complex>
+#include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/atomic_file.hpp"
 #include "io/frf/response_csv.hpp"
+#include "io/results/csv_table.hpp"
 #include "report/page/document.hpp"
 #include "run_in_folder.hpp"
 #include "tests/report/unpacked.hpp"
