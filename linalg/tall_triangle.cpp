@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
+#include <string>
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
@@ -31,15 +32,13 @@ Eigen::MatrixXd reduced(Eigen::MatrixXd piece, Index columns) {
   const int m = static_cast<int>(piece.rows()), n = static_cast<int>(columns), block = std::min(24, n);
   const int others = static_cast<int>(piece.cols()) - n;
   Eigen::MatrixXd T(block, n), work(block, std::max(n, others));
-  int info = 0, info_of_product = 0;
+  int info = 0;  // of arguments alone, which tall_triangle() has looked at
   dgeqrt_(&m, &n, &block, piece.data(), &m, T.data(), &block, work.data(), &info);
   if (others > 0) {
     const char left = 'L', transposed = 'T';
     dgemqrt_(&left, &transposed, &m, &others, &n, &block, piece.data(), &m, T.data(), &block, piece.col(columns).data(),
-             &m, work.data(), &info_of_product, 1, 1);
+             &m, work.data(), &info, 1, 1);
   }
-  if (info != 0 || info_of_product != 0)
-    throw core::NumericalError("the triangle of a tall matrix: LAPACK refuses its shape; check the number of lines");
   Eigen::MatrixXd top = piece.topRows(columns);
   top.leftCols(columns).triangularView<Eigen::StrictlyLower>().setZero();
   return top;
@@ -63,7 +62,11 @@ Eigen::MatrixXd in_pieces(const Eigen::MatrixXd& A, Index columns) {
 }  // namespace
 
 Eigen::MatrixXd tall_triangle(const Eigen::MatrixXd& A, Index columns) {
-  assert(0 < columns && columns <= A.cols() && columns <= A.rows());
+  assert(0 < columns && columns <= A.cols());
+  if (A.rows() < columns) {
+    throw core::InputError("least squares: " + std::to_string(A.rows()) + " rows for " + std::to_string(columns) +
+                           " columns; at least as many rows are needed");
+  }
   const LibraryThreads one(1);
   return in_pieces(A, columns);
 }

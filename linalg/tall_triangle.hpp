@@ -11,8 +11,9 @@ namespace thinwall::linalg {
 /// Pieces of the rows are reduced to triangles by Householder reflections, and these, one above the other, likewise
 /// (tall and skinny QR: Demmel, Grigori, Hoemmen and Langou 2012, section 2), because a piece stays in the cache, and
 /// on all threads. The pieces follow from the shape alone, so that results do not depend on the number of threads.
-/// Errors are those of Householder's reflections of A, whatever its condition. A: rows × any, of no fewer rows than
-/// `columns`. Returns columns × columns of A. Throws Interrupted. Cost: 2.4 rows columns² flops for R.
+/// Errors are those of Householder's reflections of A, whatever its condition. A: rows × any. Returns
+/// columns × columns of A. Throws InputError if there are fewer rows than `columns`, and Interrupted. Cost: 2.4 rows
+/// columns² flops for R.
 [[nodiscard]] Eigen::MatrixXd tall_triangle(const Eigen::MatrixXd& A, Eigen::Index columns);
 
 }  // namespace thinwall::linalg

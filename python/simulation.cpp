@@ -17,9 +17,9 @@ namespace thinwall::python {
 
 namespace {
 
-using PoledStructure = std::variant<dynamics::SpatialModel, dynamics::ModalModel>;
+using MatricesOrModes = std::variant<dynamics::SpatialModel, dynamics::ModalModel>;
 
-milling::RelativeStructure felt(const PoledStructure& structure, const std::optional<std::string>& at) {
+milling::RelativeStructure felt(const MatricesOrModes& structure, const std::optional<std::string>& at) {
   return std::visit([&](const auto& model) { return poles(model, at); }, structure);
 }
 
@@ -72,7 +72,7 @@ milling::Stock stock_of(const milling::MillingProcess& process) {
   throw core::InputError("exact paths need a cut with a radial_depth_m, not an arc that no straight wall has");
 }
 
-py::dict simulate(const PoledStructure& structure, const milling::MillingProcess& process, double spindle_speed_rpm,
+py::dict simulate(const MatricesOrModes& structure, const milling::MillingProcess& process, double spindle_speed_rpm,
                   double depth_m, double feed_per_tooth_m, const std::optional<std::string>& at,
                   const std::string& paths, int settling_turns, int recorded_turns, int traced_turns, int wall_turns,
                   int steps) {
@@ -96,7 +96,7 @@ py::dict simulate(const PoledStructure& structure, const milling::MillingProcess
   return dict_of(cut);
 }
 
-py::dict growth(const PoledStructure& structure, const milling::MillingProcess& process, double spindle_speed_rpm,
+py::dict growth(const MatricesOrModes& structure, const milling::MillingProcess& process, double spindle_speed_rpm,
                 double depth_m, const std::optional<std::string>& at, int steps) {
   const milling::SimulatedGrowth found = [&] {
     const LongCall guard;

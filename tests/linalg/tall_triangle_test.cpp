@@ -6,6 +6,7 @@
 #include <random>
 
 #include "core/dense_factorisations.hpp"
+#include "core/error.hpp"
 #include "tests/linalg/thread_count.hpp"
 
 namespace thinwall::linalg::tall_triangle_test {
@@ -55,6 +56,11 @@ TEST(TallTriangle, SolvesLeastSquaresByItsFirstColumns) {
   const Eigen::MatrixXd R = reduced.leftCols(20);
   const Eigen::MatrixXd found = R.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd(reduced.rightCols(4)));
   EXPECT_LT((found - x).norm(), 1e-10 * x.norm());
+}
+
+TEST(TallTriangle, NeedsAsManyRowsAsColumns) {
+  EXPECT_THROW((void)tall_triangle(scattered(5, 6), 6), core::InputError);
+  EXPECT_EQ(tall_triangle(scattered(6, 6), 6).rows(), 6);
 }
 
 TEST(TallTriangle, IsTheSameForAnyNumberOfThreads) {
