@@ -201,8 +201,8 @@ void add_step(Refinement& r, RefinementStep step) {
 
 /// Adds the comparison of two successive orders on one mesh; returns the errors of both.
 std::pair<Errors, Errors> compared(Refinement& r, int level, const Solution& below, const Solution& above) {
-  const Model& model = above.model;
-  RefinementStep step{level, model.nodes.order, model.K.rows(), frequency_change(below.modes, above.modes), {}};
+  RefinementStep step{
+      level, above.model.nodes.order, above.model.K.rows(), frequency_change(below.modes, above.modes), {}};
   compare_receptances(below.responses, above.responses, above.modes, r.options.points, step);
   add_step(r, std::move(step));
   Untold untold{r.options.untold_ratio, r.usual_order};

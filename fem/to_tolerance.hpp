@@ -44,10 +44,10 @@ struct RefinementStep {
 struct ToleranceOptions {
   double tolerance = 1e-3;  ///< relative, on frequencies and receptances; 1e-6 to 0.1
   ModeOptions modes;
-  std::vector<NamedPoint> points;  ///< points between which receptances must meet the tolerance
-  bool points_hold = false;        ///< true if the points must determine all rigid motions
-  int first_order = 4;             ///< first order of a level; 1 to 5
-  int last_order = 6;              ///< last order of a level; above first_order, to 6
+  std::vector<NamedPoint> points{};  ///< points between which receptances must meet the tolerance
+  bool points_hold = false;          ///< true if the points must determine all rigid motions
+  int first_order = 4;               ///< first order of a level; 1 to 5
+  int last_order = 6;                ///< last order of a level; above first_order, to 6
   int levels = 4;
   bool reentrant_edges = false;  ///< true if the part has a re-entrant edge, beside which errors fall more slowly
   double untold_ratio = 0.5;  ///< of the errors of successive orders, at least, before two changes show it; 0.5 to 0.9

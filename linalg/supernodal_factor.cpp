@@ -285,9 +285,9 @@ struct Multifrontal {
       const Place last = std::lower_bound(target, end, to) - target;
       Threads::each(last - first, [&](Place k) {
         const Place j = first + k;
-        double* sum = F.at(0, target[j] - from);
+        double* column = F.at(0, target[j] - from);
         const double* term = U.at(0, j);
-        for (Place i = j; i < U.stride; ++i) sum[target[i]] += term[i];
+        for (Place i = j; i < U.stride; ++i) column[target[i]] += term[i];
       });
       target = end;
     }

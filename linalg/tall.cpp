@@ -15,16 +15,16 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr Index piece = 2048;  // rows of a piece; 16 columns of it fit in the second-level cache
+constexpr Index piece_rows = 2048;  // rows of a piece; 16 columns of it fit in the second-level cache
 
 /// Calls body(piece, first, rows) for every piece of the rows; on this thread alone if there are fewer than three
 /// pieces.
 template <class Body>
 void over_pieces(Index rows, const Body& body) {
-  const auto pieces = static_cast<std::size_t>((rows + piece - 1) / piece);
+  const auto pieces = static_cast<std::size_t>((rows + piece_rows - 1) / piece_rows);
   const auto one = [&](std::size_t i) {
-    const Index first = static_cast<Index>(i) * piece;
-    body(i, first, std::min(piece, rows - first));
+    const Index first = static_cast<Index>(i) * piece_rows;
+    body(i, first, std::min(piece_rows, rows - first));
   };
   if (pieces < 3) {
     for (std::size_t i = 0; i < pieces; ++i) one(i);
@@ -89,7 +89,7 @@ MatrixXd tall_gram(const Eigen::Ref<const MatrixXd>& V, const Eigen::Ref<const M
   const LibraryThreads one(1);
   MatrixXd G = MatrixXd::Zero(V.cols(), W.cols());
   if (G.size() == 0) return G;
-  std::vector<MatrixXd> parts(static_cast<std::size_t>((V.rows() + piece - 1) / piece), G);
+  std::vector<MatrixXd> parts(static_cast<std::size_t>((V.rows() + piece_rows - 1) / piece_rows), G);
   over_pieces(V.rows(), [&](std::size_t i, Index first, Index count) {
     cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, size(V.cols()), size(W.cols()), size(count), 1.0,
                 from(V, first), size(V.outerStride()), from(W, first), size(W.outerStride()), 0.0, parts[i].data(),

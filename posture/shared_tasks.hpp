@@ -31,12 +31,12 @@ enum class Sharing {
 struct SharedTasks {
   int label = 0;
   NumberGroup group = NumberGroup::frequency_and_damping;
-  std::vector<std::size_t> postures;   ///< numbers, one a row of what follows
-  Eigen::MatrixXd measured;            ///< postures × numbers
-  Eigen::MatrixXd left_out;            ///< each from all others, alone, in closed form
-  Eigen::MatrixXd left_out_deviation;  ///< with the noise
-  Eigen::VectorXd R2_alone;            ///< of each number over the folds
-  Eigen::VectorXd R2_together;
+  std::vector<std::size_t> postures{};   ///< numbers, one a row of what follows
+  Eigen::MatrixXd measured{};            ///< postures × numbers
+  Eigen::MatrixXd left_out{};            ///< each from all others, alone, in closed form
+  Eigen::MatrixXd left_out_deviation{};  ///< with the noise
+  Eigen::VectorXd R2_alone{};            ///< of each number over the folds
+  Eigen::VectorXd R2_together{};
   double ln_p_alone = 0.0;     ///< the sum of the logarithms of the largest likelihoods, of standardised numbers
   double ln_p_together = 0.0;  ///< of the processes that share lengths and the covariance of the numbers
 

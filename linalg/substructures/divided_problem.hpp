@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/dense_factorisations.hpp"
@@ -38,8 +39,8 @@ struct Substructures {
   double sigma;
   Domains division;
   std::vector<Domain> domains{};
-  Eigen::LLT<Eigen::MatrixXd> interface_factor{};
-  Eigen::MatrixXd interface_modes{};  ///< interface × kept
+  std::optional<Eigen::LLT<Eigen::MatrixXd>> interface_factor{};  ///< of S, while it is to solve
+  Eigen::MatrixXd interface_modes{};                              ///< interface × kept
   Eigen::VectorXd interface_kappa{};  ///< the Rayleigh quotients ψᵀSψ, with the ψ as they are normalised
 
   /// K − (σ + shift) M on some rows.

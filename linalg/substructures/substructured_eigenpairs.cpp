@@ -57,7 +57,7 @@ void reduce_interface(double cut_off, Substructures& whole) {
   core::require_memory(56.0 * static_cast<double>(size) * static_cast<double>(size),
                        "an interface of " + std::to_string(size) + " rows between the domains");
   const MatrixXd S = interface_matrix(whole, 0.0);
-  whole.interface_factor.compute(S);
+  whole.interface_factor.emplace(S);
   const double h = 0.1 * cut_off;
   whole.over_domains([&](Domain& domain) {
     const SparseMatrix A = whole.stiffness(domain.rows, -h);
@@ -68,7 +68,7 @@ void reduce_interface(double cut_off, Substructures& whole) {
   const MatrixXd S_h = interface_matrix(whole, -h);
   for (Domain& domain : whole.domains) domain.condensed.resize(0, 0);
   const double bound = interface_cut_off * interface_cut_off * cut_off;
-  Eigenpairs pairs = interface_pairs(S, S_h, whole.interface_factor, bound / (bound + h));
+  Eigenpairs pairs = interface_pairs(S, S_h, *whole.interface_factor, bound / (bound + h));
   if (pairs.status != EigenStatus::converged) {
     throw core::NumericalError("the modes of an interface of " + std::to_string(size) +
                                " rows did not converge: find the modes without substructures");
@@ -165,7 +165,7 @@ MatrixXd solve(const Substructures& whole, const Eigen::Ref<const MatrixXd>& F) 
   });
   MatrixXd F_b = F(whole.division.interface, Eigen::all);
   for (std::size_t d = 0; d < domains.size(); ++d) F_b(domains[d].in_interface, Eigen::all) -= at_border[d];
-  const MatrixXd X_b = whole.interface_factor.solve(F_b);
+  const MatrixXd X_b = whole.interface_factor->solve(F_b);
   MatrixXd X(F.rows(), F.cols());
   X(whole.division.interface, Eigen::all) = X_b;
   core::parallel_for(domains.size(), [&](std::size_t d) {
@@ -263,7 +263,7 @@ void give_up(bool factors_too, Substructures& whole) {
     domain.factor.reset();
     domain.coupling.resize(0, 0);
   }
-  if (factors_too) whole.interface_factor = {};
+  if (factors_too) whole.interface_factor.reset();
 }
 
 /// The number of modes of the small problem to carry along, the wanted ones included and others, which keep the errors

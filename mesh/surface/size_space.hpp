@@ -25,7 +25,7 @@ struct SurfaceSize {
   double turn_rad = 0.05;   ///< turning of the surface along an edge, 0.01 to 1; a bent wall's volume errs by turn²/6
   double deviation = 0.05;  ///< distance of a triangle from a curved patch, of its wall thickness, 0.01 to 0.5
   double sharp_angle_rad = 0.5235987755982988;  ///< dihedral angle above which an edge is a feature, 0.05 to 2 (30°)
-  std::vector<Region> refined;  ///< spheres and boxes (clamps, contact patches) with layers on their borders
+  std::vector<Region> refined{};  ///< spheres and boxes (clamps, contact patches) with layers on their borders
 };
 
 /// Throws InputError that lists every field out of its range, and for a plane among the refined regions.

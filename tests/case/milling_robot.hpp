@@ -86,7 +86,7 @@ inline void read_modes(const std::filesystem::path& file, std::vector<TestPostur
     identification::FittedMode mode;
     mode.frequency_hz = v[1];
     mode.damping_ratio = v[2];
-    const auto entry = [&v](std::size_t i) { return std::complex<double>(v[i], v[i + 1]); };
+    const auto entry = [&v](std::size_t column) { return std::complex<double>(v[column], v[column + 1]); };
     mode.left = Eigen::Vector2cd(entry(4), entry(6));
     mode.right = Eigen::Vector2cd(entry(8), entry(10));
     mode.residue = mode.right * mode.left.transpose();

@@ -241,8 +241,9 @@ TEST(Helix, TheFirstCrossingIsTheSameWhateverElseIsWantedAndExpected) {
         EXPECT_EQ(row.status, StabilityStatus::converged) << i << ", " << follow << ", " << expected;
         EXPECT_NEAR(row.limiting_depth_m / all.limiting_depth_m, 1.0, 1e-7 + all.error_estimate + row.error_estimate)
             << i << ", " << follow << ", " << expected;
-        if (follow == 1.0)
+        if (follow == 1.0) {
           EXPECT_LE(row.crossings.back().depth_m, 1.11 * row.limiting_depth_m) << i << ", " << expected;
+        }
       }
     }
   }
