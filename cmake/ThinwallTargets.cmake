@@ -3,13 +3,18 @@
 #     TEXT                  is for folders without computations; JSON is among their precompiled headers
 #     OWN_HEADERS           is for targets whose options differ from those of the shared precompiled headers
 # thinwall_test(<name> LINKS ...)        makes one GoogleTest program from every .cpp of the current folder, with a ctest entry for each suite
-#     OPTIMISED             is for tests that compute much by themselves
+#     OPTIMISED <source>... names sources that compute much by themselves: these alone are optimised, each by itself
 
 add_library(thinwall_flags INTERFACE)
 target_compile_options(thinwall_flags INTERFACE -Wall -Wextra -Wpedantic -Wsuggest-override
                                                 -Wzero-as-null-pointer-constant -Werror)
-# Hidden names are reported by gcc alone, because clang takes a batch of files for one and reports names across them.
-target_compile_options(thinwall_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wshadow>)
+# Hidden names are reported by gcc alone, which can leave out names of other files of a batch: in batches it reports names
+# hidden within a function.
+if(THINWALL_BATCHES)
+  target_compile_options(thinwall_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>)
+else()
+  target_compile_options(thinwall_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wshadow>)
+endif()
 # Calls within the library may be direct and inlined: the compiler may assume that no library loaded before (LD_PRELOAD)
 # replaces one of its functions.
 target_compile_options(thinwall_flags INTERFACE -fno-semantic-interposition)
@@ -17,6 +22,8 @@ target_compile_options(thinwall_flags INTERFACE -fno-semantic-interposition)
 # precompiled, as copies beyond the end (GCC bug 105329, fixed in GCC 13).
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(thinwall_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict>)
+  # It reports members of Eigen's and CGAL's templates as used before they are set, which is shown, but stops no build.
+  target_compile_options(thinwall_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-error=maybe-uninitialized>)
   if(NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
     target_compile_options(thinwall_flags INTERFACE "$<$<COMPILE_LANGUAGE:CXX>:-Wno-array-bounds;-Wno-stringop-overflow>")
   endif()
@@ -97,6 +104,8 @@ function(thinwall_batches target)
     endforeach()
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # GCC takes an anonymous namespace for that of another file if its own file is included into a batch.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
 function(thinwall_library name)
@@ -154,27 +163,27 @@ endfunction()
 # each, takes a minute more. The suites are listed by the program after it was built. Each source has a namespace of its
 # own, named as the file is, so that sources which are compiled as one may have helpers of the same name.
 function(thinwall_test name)
-  cmake_parse_arguments(ARG "OPTIMISED" "" "LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "LINKS;OPTIMISED" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_executable(test_${name} ${sources})
   target_link_libraries(test_${name} PRIVATE thinwall_flags ${ARG_LINKS} GTest::gtest_main)
   # Without optimisation tests are compiled in half the time. Templates that a test and a library both hold would then
   # be slow in the library, too, if the linker met the test's copy first.
-  if(NOT ARG_OPTIMISED)
-    target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-O0>)
-    thinwall_computing(computing ${ARG_LINKS})
-    list(TRANSFORM computing REPLACE "(.+)" "$<TARGET_FILE:\\1>")
-    target_link_options(test_${name} PRIVATE "LINKER:--whole-archive" ${computing} "LINKER:--no-whole-archive")
+  target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-O0>)
+  thinwall_computing(computing ${ARG_LINKS})
+  list(TRANSFORM computing REPLACE "(.+)" "$<TARGET_FILE:\\1>")
+  target_link_options(test_${name} PRIVATE "LINKER:--whole-archive" ${computing} "LINKER:--no-whole-archive")
+  if(ARG_OPTIMISED)
+    set_source_files_properties(${ARG_OPTIMISED} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O2>
+                                SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
   endif()
-  if(ARG_OPTIMISED OR name STREQUAL "core")
+  if(name STREQUAL "core")
     target_precompile_headers(test_${name} PRIVATE ${THINWALL_COMMON_HEADERS} <gtest/gtest.h>)
   else()
     target_precompile_headers(test_${name} REUSE_FROM test_core)
   endif()
   if(THINWALL_BATCHES)
     thinwall_batches(test_${name})
-    # GCC takes a fixture of an anonymous namespace for that of another file if its own is included into a batch.
-    target_compile_options(test_${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
   target_compile_definitions(test_${name} PRIVATE THINWALL_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                                   THINWALL_BUILD_DIR="${PROJECT_BINARY_DIR}")
