@@ -73,6 +73,9 @@ export async function colours(page, is) {
   return { count: rows.length, atBorder, height: rows.length ? (range[1] - range[0]) / height : 0 };
 }
 
+/** All tables of a caption, each as rows of the cells' texts. */
+export const tables = (page, caption) => page.locator('table').evaluateAll((list, wanted) => list.filter((t) => t.caption.textContent === wanted).map((t) => [...t.rows].map((r) => [...r.cells].map((c) => c.textContent))), caption);
+
 /** Moves a slider, as a user does. */
 export const slide = (page, label, value) => page.evaluate(([name, v]) => {
   const input = [...document.querySelectorAll('label.control')].find((l) => l.textContent === name).querySelector('input');

@@ -1,41 +1,16 @@
 // What the page says and draws of runs of different kinds: sentences, tiles, tables and marks by what there is.
 
 import assert from 'node:assert/strict';
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import os from 'node:os';
-import path from 'node:path';
-import { after, before, describe, test } from 'node:test';
-import { comac, likeness } from '../src/comac.js';
+import { describe, test } from 'node:test';
 import { cmif, singularValues } from '../src/cmif.js';
-import { extent, shapeOf, surface } from '../src/shapes.js';
-import { colours, drawn, launch, open, slide, traces } from './browser.mjs';
-import { compose } from './compose.mjs';
-import { alongPath, forced, identified, measured, noArm, oneRun, pack, partAlone, robust, simulated, toolMeasured, toolOnly, turning, twoRuns } from './synthetic.mjs';
+import { tables, traces } from './browser.mjs';
+import { lead, shownIn } from './shown.mjs';
+import { alongPath, forced, identified, measured, oneRun, pack, partAlone, robust, toolMeasured, toolOnly, turning, twoRuns } from './synthetic.mjs';
 
-const folder = mkdtempSync(path.join(os.tmpdir(), 'thinwall-content-'));
-let browser;
-before(async () => { browser = await launch(); });
-after(async () => { await browser.close(); rmSync(folder, { recursive: true }); });
-
-/** The page of a document, all drawn, without trouble; `see` looks at it. */
-async function shown(data, see, options) {
-  const file = path.join(folder, 'page.html');
-  writeFileSync(file, compose(data));
-  const page = await open(browser, file, options);
-  try {
-    await drawn(page);
-    await see(page);
-    assert.deepEqual(page.trouble, []);
-  } finally {
-    await page.context().close();
-  }
-}
+const shown = shownIn({ webgl: false });
 
 // Of cards and strip alike.
 const tiles = (page) => page.locator('.tiles > div').evaluateAll((list) => Object.fromEntries(list.map((d) => [d.querySelector('dt').textContent, [...d.querySelectorAll('dd')].map((x) => x.textContent).join(' | ')])));
-const pick = (page, label, value) => page.locator('#shapes label.control', { has: page.locator('span', { hasText: new RegExp(`^${label}$`) }) }).locator('select').selectOption(value);
-const lead = (page, id) => page.locator(`#${id} .lead`).first().textContent();
-const rows = (page, caption) => page.locator('table').evaluateAll((list, wanted) => list.filter((t) => t.caption.textContent === wanted).map((t) => [...t.rows].map((r) => [...r.cells].map((c) => c.textContent))), caption);
 
 describe('the answer', () => {
   test('sentences stand once, five of them openly, and give the error alone', () => shown(oneRun(), async (page) => {
@@ -68,7 +43,7 @@ describe('the answer', () => {
 
   test('of two runs: both first lines, what differs, each run\'s own sentences', () => shown(twoRuns(), async (page) => {
     assert.deepEqual(await page.locator('.answer').allTextContents(), ['first: 2 mm.', 'second: 3 mm.']);
-    assert.deepEqual(await rows(page, 'What differs'), [[['Key', 'first', 'second'], ['part.length', '0.39', '0.4'], ['robot.model', 'one_mode', '–']]]);
+    assert.deepEqual(await tables(page, 'What differs'), [[['Key', 'first', 'second'], ['part.length', '0.39', '0.4'], ['robot.model', 'one_mode', '–']]]);
     const sentences = await page.locator('.sentences li').allTextContents();
     assert.deepEqual(await page.locator('#remarks h3').allTextContents(), ['first', 'second']);
     assert.deepEqual(sentences, ['an error.', ...twoRuns().runs[0].sentences, ...twoRuns().runs[1].sentences]);
@@ -108,7 +83,7 @@ describe('the first screen', () => {
   test('what the limit hinges on is a folded table of what matters', () => shown(asked(), async (page) => {
     assert.equal(await page.locator('.hinges table:visible').count(), 0);
     await page.click('.hinges summary');
-    const [table] = await rows(page, 'Change of the limit at 1900 rpm by 1 % more of a parameter');
+    const [table] = await tables(page, 'Change of the limit at 1900 rpm by 1 % more of a parameter');
     assert.deepEqual(table.slice(1), [['damping of the mode at 250.1 Hz', 'with robot', '+0.8 %'], ['Kr', 'with robot', '−0.5 %']].map((r) => [r[0].replace('Kr', 'K_r'), ...r.slice(1)]));
   }));
 
@@ -120,7 +95,7 @@ describe('the first screen', () => {
   }, { viewport: { width: 688, height: 1017 } }));
 
   test('what was cut: table and sketch in the first third', () => shown(oneRun(), async (page) => {
-    const [table] = await rows(page, 'What was cut');
+    const [table] = await tables(page, 'What was cut');
     const cells = Object.fromEntries(table);
     assert.equal(cells.Cutter, 'flat end mill of 20 mm, edges 20 mm long');
     assert.equal(cells.Helix, '30°');
@@ -217,7 +192,7 @@ describe('sentences and sections by what there is', () => {
 
   test('measured receptances: the main modes, and no empty section', () => shown(measured(), async (page) => {
     assert.deepEqual(await page.locator('main section').evaluateAll((list) => list.map((s) => s.id)), ['remarks', 'receptances', 'modes', 'provenance']);
-    assert.deepEqual((await rows(page, 'Part with robot: main modes of the receptance'))[0][1], ['1', '36.328', '1.64']);
+    assert.deepEqual((await tables(page, 'Part with robot: main modes of the receptance'))[0][1], ['1', '36.328', '1.64']);
     assert.doesNotMatch(await lead(page, 'receptances'), /lower panel/);
   }));
 });
@@ -346,7 +321,7 @@ describe('the charts', () => {
     const list = await page.evaluate(() => document.getElementById('plot-lobes').data.filter((t) => t.meta?.startsWith('points')).map((t) => ({ meta: t.meta, x: Array.from(t.x), y: Array.from(t.y), symbol: t.marker.symbol, color: t.marker.color })));
     assert.deepEqual(list.map((t) => [t.meta, t.x[0], t.y[0], t.symbol]), [['points 0 part chatter', 1500, 1, 'x'], ['points 0 supported stable', 1500, 1, 'circle-open']]);
     assert.notEqual(list[0].color, list[1].color);
-    const [table] = await rows(page, 'Operating points');
+    const [table] = await tables(page, 'Operating points');
     assert.deepEqual(table[1].slice(0, 6), ['1500', '1', 'part alone', '✗ chatter', '−0.8 mm (−80 %)', '1410 to 1620']);
     assert.deepEqual(table[2].slice(2, 6), ['with robot', '✓ stable', '1 mm (100 %)', 'lowest to highest']);
   }));
@@ -370,13 +345,11 @@ describe('the charts', () => {
       const alone = await traces(page, 'forced');
       assert.ok(!alone.some((t) => t.meta === 'least_contact_force_n'), 'the part alone has no contact');
     });
-    const file = path.join(folder, 'page.html');
-    writeFileSync(file, compose(data));
-    const page = await open(browser, file, { unfold: false });
-    assert.equal(await page.locator('#plot-forced').isVisible(), false);
-    await page.click('#forced summary');
-    await page.waitForFunction(() => document.getElementById('plot-forced').data);
-    await page.context().close();
+    await shown(data, async (page) => {
+      assert.equal(await page.locator('#plot-forced').isVisible(), false);
+      await page.click('#forced summary');
+      await page.waitForFunction(() => document.getElementById('plot-forced').data);
+    }, { unfold: false });
     await shown(oneRun(), async (plainPage) => assert.equal(await plainPage.locator('#forced').count(), 0));
   });
 
@@ -425,175 +398,12 @@ describe('the charts', () => {
 
 describe('the tables', () => {
   test('fits, robot\'s modes, units of checks', () => shown(oneRun(), async (page) => {
-    assert.deepEqual((await rows(page, 'Fitted parameters (SI units)'))[0][1], ['length of P', 'part.length', '0.3921', '0.4', '0.38 to 0.41']);
-    assert.deepEqual((await rows(page, 'What they were fitted to'))[0][1], ['length of P', 'part frequency', '212.9 Hz', '212 Hz']);
-    assert.deepEqual((await rows(page, 'Robot alone'))[0][1], ['1', '29.500', '2.10']);
-    const checks = Object.fromEntries((await rows(page, 'Checks'))[0].map((r) => [r[0], r.slice(1, 3)]));
+    assert.deepEqual((await tables(page, 'Fitted parameters (SI units)'))[0][1], ['length of P', 'part.length', '0.3921', '0.4', '0.38 to 0.41']);
+    assert.deepEqual((await tables(page, 'What they were fitted to'))[0][1], ['length of P', 'part frequency', '212.9 Hz', '212 Hz']);
+    assert.deepEqual((await tables(page, 'Robot alone'))[0][1], ['1', '29.500', '2.10']);
+    const checks = Object.fromEntries((await tables(page, 'Checks'))[0].map((r) => [r[0], r.slice(1, 3)]));
     assert.deepEqual(checks.fit, ['212.9 Hz', '212 ± 2 Hz']);
     assert.deepEqual(checks['own unit'], ['3 kN', '3 kN']);
     assert.deepEqual(checks['least depth'], ['2.1 mm', 'at least 2 mm']);
   }));
-});
-
-describe('the moving shapes', () => {
-  const robot = (page) => colours(page, ([r, g, b]) => r < 10 && g > 70 && Math.abs(g / (b || 1) - 158 / 115) < 0.12);
-  const orange = (page) => colours(page, ([r, g, b]) => r > 100 && b < 12 && Math.abs(g / r - 94 / 213) < 0.06);
-
-  test('the list says of what a mode is', () => shown(oneRun(), async (page) => {
-    const options = await page.locator('#shapes select').first().locator('option').allTextContents();
-    assert.ok(options.includes('part 1: 200.1 Hz') && options.includes('part with robot 1: 250.1 Hz'), options.join());
-  }));
-
-  test('the arm is wholly in the picture, and out of it for the part alone', () => shown(oneRun(), async (page) => {
-    const first = await robot(page);
-    await pick(page, 'View', 'all');
-    const seen = await robot(page);
-    assert.ok(seen.count > 300 && !seen.atBorder, JSON.stringify(seen));
-    const whole = seen.height;
-    await pick(page, 'View', 'part');
-    const near = await robot(page);
-    assert.ok(near.height > 1.2 * whole || near.atBorder);
-    assert.deepEqual(near, first, 'the view begins on the part');
-    await pick(page, 'Mode', { label: 'part 1: 200.1 Hz' });
-    assert.equal((await robot(page)).count, 0);
-  }));
-
-  test('the robot\'s motion limits the amplitude', async () => {
-    const data = oneRun();
-    for (const m of data.runs[0].shapes.modes) if (m.robot) m.robot = [0, 40, 0];
-    await shown(data, async (page) => {
-      await pick(page, 'View', 'all');
-      await slide(page, 'Amplitude', 1);
-      await slide(page, 'Phase', 0);
-      const seen = await robot(page);
-      assert.ok(seen.count > 300 && !seen.atBorder, JSON.stringify(seen));
-      assert.match(await page.textContent('#shapes figcaption'), /40 times as far as the part/);
-    });
-  });
-
-  test('a robot without an arm is seen where it pushes, of coupled modes only', () => shown(noArm(), async (page) => {
-    assert.ok((await robot(page)).count > 150);
-    assert.match(await page.textContent('#shapes .legend'), /robot/);
-    await pick(page, 'Mode', { label: 'part 1: 200.1 Hz' });
-    assert.equal((await robot(page)).count, 0);
-    assert.doesNotMatch(await page.textContent('#shapes .legend'), /robot/);
-  }));
-
-  test('it pushes from outside along what is joined, and is in the view', () => {
-    const { pushes: [point], direction } = surface(noArm().runs[0].shapes);
-    assert.deepEqual(point.push.map((x) => Math.round(x) + 0), point.normal.map((x) => -Math.round(x) + 0));
-    const facing = point.normal.reduce((sum, x, k) => sum + x * direction[k], 0);
-    assert.ok(facing > 0, 'the contact is on the side that is seen first');
-    assert.ok(direction[2] > 0);
-  });
-
-  test('arrows only where a contact joins', async () => {
-    const legend = (page) => page.textContent('#shapes .legend');
-    const select = (page) => pick(page, 'Mode', { label: 'part 1: 200.1 Hz' });
-    let joined;
-    await shown(oneRun(), async (page) => { await select(page); joined = (await orange(page)).count; assert.match(await legend(page), /arrows: directions joined/); });
-    const data = oneRun();
-    data.runs[0].shapes.points.forEach((p) => { delete p.joined; });
-    await shown(data, async (page) => { await select(page); assert.ok((await orange(page)).count < 0.8 * joined); assert.doesNotMatch(await legend(page), /arrows/); });
-  });
-
-  test('likeness of the shapes at each place: 1 where they move alike, 0 across, whatever their size and sign', async () => {
-    const one = { vectors: Float32Array.of(1, 0, 0, 0, 2, 0), scale: 1 };
-    const other = { vectors: Float32Array.of(-3, 0, 0, 0, 0, 1), scale: 0.5 };
-    assert.deepEqual(Array.from(likeness([[one, other]])), [1, 0]);
-    const second = [{ vectors: Float32Array.of(0, 1, 0, 0, 1, 0), scale: 1 }, { vectors: Float32Array.of(0, 0, 1, 0, 1, 0), scale: 1 }];
-    const [mixed] = likeness([[one, other], second]); // (1·1.5)² / ((1 + 1)(1.5² + 1))
-    assert.ok(Math.abs(mixed - 2.25 / 6.5) < 1e-6);
-    const { values } = { values: comac(oneRun().runs[0]) };
-    assert.ok(values.length === oneRun().runs[0].shapes.vertices.shape[0] && values.every((x) => x >= 0 && x < 1.00001));
-    await shown(oneRun(), async (page) => { await pick(page, 'Colour', 'comac'); assert.match(await page.textContent('#shapes .legend'), /COMAC.*0.*1/); });
-  });
-
-  test('what is to be seen holds part and robot', () => {
-    const { shapes } = oneRun().runs[0];
-    const { centre, points } = extent(surface(shapes), true);
-    const inside = (p) => points.some((q) => q.every((x, k) => Math.abs(x + centre[k] - p[k]) < 1e-9));
-    assert.ok(shapes.robot_arm.every(inside));
-    assert.ok(!shapes.robot_arm.some((p) => extent(surface(shapes), false).points.some((q) => q.every((x, k) => Math.abs(x - p[k]) < 1e-9))));
-    assert.equal(shapeOf({ shape: shapes.modes[0].shape, step: 1, robot: [0, 3, 4] }).reach, 5);
-  });
-
-  test('thickness: the least is kept and in the range, faces across the wall are not', () => {
-    const { shapes } = oneRun().runs[0];
-    const n = shapes.triangles.shape[0];
-    const values = Array.from({ length: n }, (_, t) => (t === 1000 ? 0.0012 : t % 20 === 0 ? 0.02 : 0.006));
-    const { thickness } = surface({ ...shapes, thickness_m: pack('f32', [n], values) });
-    assert.ok(Math.abs(thickness.low - 0.0012) < 1e-8 && Math.abs(thickness.high - 0.006) < 1e-8 && Math.abs(thickness.median - 0.006) < 1e-8, JSON.stringify({ ...thickness, values: 0 }));
-    assert.ok(Math.abs(thickness.values[1000] - 0.0012) < 1e-8);
-  });
-
-  test('a wall of one thickness with narrow sides reads as that, and the thinnest place has its own colour', async () => {
-    const data = oneRun();
-    const n = data.runs[0].shapes.triangles.shape[0];
-    const thin = (some) => pack('f32', [n], Array.from({ length: n }, (_, t) => (some && t === 1001 ? 0.001 : t % 20 === 0 ? 0.0187 : 0.006)));
-    const viewed = async (page) => { await pick(page, 'Colour', 'thickness'); await slide(page, 'Amplitude', 0); };
-    data.runs[0].shapes.thickness_m = thin(false);
-    await shown(data, async (page) => { await viewed(page); assert.match(await page.textContent('#shapes .legend'), /6 mm\s+7\.2 mm and more/); });
-    data.runs[0].shapes.thickness_m = thin(true);
-    await shown(data, async (page) => {
-      await pick(page, 'Mode', { label: 'part 1: 200.1 Hz' });
-      await viewed(page);
-      assert.match(await page.textContent('#shapes .legend'), /1 mm\s+6 mm and more/);
-      assert.match(await page.textContent('#shapes figcaption'), /Thinnest 1 mm; half of the surface at most 6 mm/);
-      assert.ok((await colours(page, ([r, g, b]) => b > r && g < 20 && r > 25)).count > 3, 'the thinnest triangle is as dark as the scale is');
-    });
-  });
-});
-
-describe('a simulation', () => {
-  const simulatedPage = (see) => shown(simulated(), see);
-  const marked = (page) => page.evaluate(() => Array.from(document.getElementById('plot-lobes').data.find((t) => t.meta === 'simulated').marker.symbol));
-
-  test('its table tells every point, and that march and lobes agree', () => simulatedPage(async (page) => {
-    const [[head, stable, flip]] = await rows(page, 'Simulated points');
-    assert.equal(stable[head.indexOf('Motion')], 'repeats itself with the cut');
-    assert.equal(flip[head.indexOf('Motion')], 'repeats itself after 2 periods of the cut');
-    assert.equal(flip[head.indexOf('Peak to peak')], '20, 40 µm');
-    assert.match(await lead(page, 'simulation'), /that of the lobes to 2e−9, the periodic motion that in closed form to 3e−7\.$/);
-  }));
-
-  test('traces are those of the point that is chosen', () => simulatedPage(async (page) => {
-    const amplitude = async () => Math.max(...(await traces(page, 'simulation-trace')).find((t) => t.meta === 'x_m').y);
-    const before = await amplitude();
-    await page.locator('#simulation label.control', { hasText: 'Point' }).locator('select').selectOption('1');
-    assert.ok(Math.abs(await amplitude() - 2 * before) < 1e-3 * before, 'in µm, of the second point');
-    assert.ok(Math.abs(before - 10) < 0.05, 'µm');
-  }));
-
-  test('lines of teeth and of chatter have marks of their own', () => simulatedPage(async (page) => {
-    await page.locator('#simulation label.control', { hasText: 'Point' }).locator('select').selectOption('1');
-    const list = await traces(page, 'simulation-spectrum');
-    assert.deepEqual(list.find((t) => t.meta === 'lines tooth_passing').x, [100]);
-    assert.deepEqual(list.find((t) => t.meta === 'lines other').x, [50]);
-  }));
-
-  test('a section has points once a tooth and once a turn', () => simulatedPage(async (page) => {
-    const list = await traces(page, 'simulation-section');
-    assert.equal(list.find((t) => t.meta === 'once a tooth').x.length, 4);
-    assert.equal(list.find((t) => t.meta === 'once a turn').x.length, 2);
-  }));
-
-  test('a mark on the chart leads to its simulation, and back', () => simulatedPage(async (page) => {
-    assert.deepEqual(await marked(page), ['diamond', 'diamond-open']);
-    await page.evaluate(() => { const box = document.getElementById('plot-lobes'); box.emit('plotly_click', { points: [{ data: box.data.find((t) => t.meta === 'simulated'), pointNumber: 1 }] }); });
-    assert.equal(await page.locator('#simulation label.control', { hasText: 'Point' }).locator('select').inputValue(), '1');
-    assert.deepEqual(await marked(page), ['diamond-open', 'diamond']);
-    await page.waitForFunction(() => Math.abs(document.getElementById('simulation').getBoundingClientRect().top) < innerHeight);
-    await page.locator('#simulation button', { hasText: 'On the chart' }).click();
-    await page.waitForFunction(() => { const { top, bottom } = document.getElementById('lobes').getBoundingClientRect(); return top < innerHeight && bottom > 0; });
-  }));
-
-  test('the map has a row a depth, with the limit on it and a gap where the vibration outgrew the cutter', () => simulatedPage(async (page) => {
-    const [map, , limit] = await page.evaluate(() => document.getElementById('plot-simulation-map').data.map((t) => ({ meta: t.meta, values: t.customdata?.map((r) => Array.from(r)) })));
-    const expected = [[1, 3, 5], [2, 4, null]];
-    map.values.forEach((row, d) => row.forEach((v, s) => assert.ok(v === expected[d][s] || Math.abs(v - expected[d][s]) < 1e-4, `${v}`)));
-    assert.equal(limit.meta, 'limit');
-  }));
-
-  test('a run without one has no such section', () => shown(oneRun(), async (page) => assert.equal(await page.locator('#simulation').count(), 0)));
 });

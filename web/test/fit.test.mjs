@@ -7,7 +7,7 @@ import path from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { commandOf, toggled } from '../src/chosen.js';
 import { displacements } from '../src/motion.js';
-import { drawn, launch, open, pixels, saved, slide, traces } from './browser.mjs';
+import { drawn, launch, open, pixels, saved, slide, tables, traces } from './browser.mjs';
 import { compose, documentOf, kindOf } from './compose.mjs';
 import { fitted } from './synthetic.mjs';
 
@@ -20,7 +20,7 @@ let browser;
 before(async () => { browser = await launch(); });
 after(async () => { await browser.close(); rmSync(folder, { recursive: true }); });
 
-const rows = (page, caption) => page.locator('table').evaluateAll((list, wanted) => list.filter((t) => t.caption.textContent === wanted).map((t) => [...t.rows].map((r) => [...r.cells].map((c) => c.textContent)))[0], caption);
+const rows = async (page, caption) => (await tables(page, caption))[0];
 
 for (const file of pages) {
   describe(path.relative(process.cwd(), file), () => {

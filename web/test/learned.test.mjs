@@ -1,19 +1,12 @@
 // What the page draws and says of the cuts that a chart learned from, and of the cut to make next.
 
 import assert from 'node:assert/strict';
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import os from 'node:os';
-import path from 'node:path';
-import { after, before, test } from 'node:test';
-import { drawn, launch, open, traces } from './browser.mjs';
-import { compose } from './compose.mjs';
+import { test } from 'node:test';
+import { tables, traces } from './browser.mjs';
+import { lead, shownIn } from './shown.mjs';
 import { oneRun } from './synthetic.mjs';
 
-const folder = mkdtempSync(path.join(os.tmpdir(), 'thinwall-learned-'));
-let browser;
-before(async () => { browser = await launch(); });
-after(async () => { await browser.close(); rmSync(folder, { recursive: true }); });
-
+const shown = shownIn({ webgl: false });
 const share = (right, of) => ({ right, of, share: right / of, low: 0.1, high: 0.9 });
 
 /** A run whose last chart learned from two cuts; `change` alters what it learned. */
@@ -34,29 +27,16 @@ function taught(change = () => {}) {
   return data;
 }
 
-async function shown(data, see) {
-  const file = path.join(folder, 'page.html');
-  writeFileSync(file, compose(data));
-  const page = await open(browser, file);
-  try {
-    await drawn(page);
-    await see(page);
-    assert.deepEqual(page.trouble, []);
-  } finally {
-    await page.context().close();
-  }
-}
-
 const said = (page) => page.locator('p.next-cut').textContent();
 const marks = async (page) => (await traces(page, 'lobes')).filter((t) => t.meta?.startsWith('proposed'));
-const table = (page, caption) => page.locator('table').evaluateAll((list, wanted) => list.filter((t) => t.caption.textContent === wanted).map((t) => [...t.rows].map((r) => [...r.cells].map((c) => c.textContent)))[0], caption);
+const table = async (page, caption) => (await tables(page, caption))[0];
 
 test('the next cut is drawn where it lies and said with its risk and what it brings', () => shown(taught(), async (page) => {
   const [next, ...others] = await marks(page);
   assert.deepEqual(others, []);
   assert.deepEqual([next.name, Array.from(next.x), Array.from(next.y)], ['next cut', [1800], [1.5]]);
   assert.equal(await said(page), 'The next cut to make is 1800 rpm, 1.5 mm: it chatters with a probability of 40 %, and its outcome narrows the relative standard deviation of the limit at 2000 rpm from 12 % to 7 %.');
-  assert.match(await page.locator('#lobes .lead').first().textContent(), /The full line is the chart before any cut.*The star is the cut to make next/);
+  assert.match(await lead(page, 'lobes'), /The full line is the chart before any cut.*The star is the cut to make next/);
 }));
 
 test('the learned chart lies beside the chart before, with a table of what moved', () => shown(taught(), async (page) => {

@@ -5,7 +5,7 @@ import { existsSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync 
 import os from 'node:os';
 import path from 'node:path';
 import { after, before, describe, test } from 'node:test';
-import { drawn, launch, open, saved, traces } from './browser.mjs';
+import { drawn, launch, open, saved, tables, traces } from './browser.mjs';
 import { compose, documentOf, kindOf } from './compose.mjs';
 import { table as tableOf } from './csv.mjs';
 import { learned, pack } from './synthetic.mjs';
@@ -19,7 +19,7 @@ let browser;
 before(async () => { browser = await launch(); });
 after(async () => { await browser.close(); rmSync(folder, { recursive: true }); });
 
-const rows = (page, caption) => page.locator('table').evaluateAll((list, wanted) => list.filter((t) => t.caption.textContent === wanted).map((t) => [...t.rows].map((r) => [...r.cells].map((c) => c.textContent)))[0], caption);
+const rows = async (page, caption) => (await tables(page, caption))[0];
 const heat = (page) => page.evaluate(() => { const t = document.getElementById('plot-workspace').data.find((d) => d.type === 'heatmap'); return { x: Array.from(t.x), y: Array.from(t.y), z: t.z.map((row) => Array.from(row)) }; });
 const choose = (page, section, label, value) => page.locator(`#${section} label.control`, { hasText: label }).locator('select').selectOption(value);
 
