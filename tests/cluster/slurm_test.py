@@ -153,12 +153,21 @@ PartitionName=main Nodes=ALL Default=YES MaxTime=INFINITE State=UP
         lines = queue.stdout.splitlines() if queue.returncode == 0 else ["? ? the controller does not answer"]
         for line in lines:
             number, state, reason = line.split(maxsplit=2)
+            if state == "PD" and "held" in reason.lower():
+                self.release(number)
             if state != "PD" or reason != "BeginTime":
                 continue
             if time.monotonic() - self.seen.setdefault(number, time.monotonic()) > 8.0:
                 self.run("scontrol", "update", f"jobid={number}", "StartTime=now")
                 del self.seen[number]
         return lines
+
+    def release(self, number):
+        """Does what Slurm leaves to its administrator: on a loaded machine a job may begin on the daemon that is about
+        to be stopped, so that the next one is asked for a job that runs already. The job is held and the node drained
+        then ("Duplicate jobid"), until somebody says that the first run is over, or soon will be."""
+        self.run("scontrol", "update", f"nodename={self.host}", "state=resume")
+        self.run("scontrol", "release", number)
 
     def waits(self, shard):
         """True if the job of a shard is in the queue and does not run."""
