@@ -7,9 +7,11 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "app/command_line.hpp"
+#include "app/case_run.hpp"
 #include "case/problem.hpp"
 #include "case/reader.hpp"
 #include "case/schema/schema.hpp"
@@ -17,6 +19,7 @@
 #include "io/results/csv_table.hpp"
 #include "milling/chart/lobe_method.hpp"
 #include "report/lobes/lobes_answers.hpp"
+#include "tests/app/command_call.hpp"
 #include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::tests::chart_choices_test {
@@ -58,14 +61,12 @@ class ChartChoices : public testing::Test {
   /// Runs `thinwall lobes` on the case; returns what it prints.
   std::string run(const std::string& text, std::vector<std::string> more = {}) {
     core::write_file_atomically(temporary.path / "case.toml", text);
-    std::vector<std::string> words{"thinwall", "lobes", path("case.toml"), "--out", path("results"), "-q"};
+    std::vector<std::string> words{"lobes", path("case.toml"), "--out", path("results"), "-q"};
     words.insert(words.end(), more.begin(), more.end());
-    std::vector<const char*> argv;
-    for (const auto& word : words) argv.push_back(word.c_str());
-    std::ostringstream out, err;
-    EXPECT_EQ(run_command_line(static_cast<int>(argv.size()), argv.data(), run_case, out, err), 0) << err.str();
+    const Outcome outcome = call(std::move(words), run_case);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
     summary = nlohmann::json::parse(core::read_file(temporary.path / "results" / "summary.json"));
-    return out.str();
+    return outcome.out;
   }
   [[nodiscard]] std::string path(const std::string& name) const { return (temporary.path / name).string(); }
   [[nodiscard]] std::vector<double> column(const std::string& file, const std::string& name) const {

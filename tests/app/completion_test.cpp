@@ -10,8 +10,8 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "app/command_line.hpp"
 #include "core/atomic_file.hpp"
+#include "tests/app/command_call.hpp"
 #include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::tests::completion_test {
@@ -25,11 +25,9 @@ namespace fs = std::filesystem;
 
 /// What the program prints.
 std::string printed(const std::vector<std::string>& words) {
-  std::vector<const char*> argv{"thinwall"};
-  for (const auto& word : words) argv.push_back(word.c_str());
-  std::ostringstream out, err;
-  EXPECT_EQ(run_command_line(static_cast<int>(argv.size()), argv.data(), {}, out, err), 0) << err.str();
-  return out.str();
+  const Outcome outcome = call(words);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  return outcome.out;
 }
 
 struct Command {
@@ -132,10 +130,9 @@ TEST_F(BashCompletion, KeysOfACase) {
 }
 
 TEST(Completion, AnotherShellIsAUsageError) {
-  const char* argv[] = {"thinwall", "completion", "csh"};
-  std::ostringstream out, err;
-  EXPECT_EQ(run_command_line(3, argv, {}, out, err), 2);
-  EXPECT_EQ(out.str(), "");
+  const Outcome outcome = call({"completion", "csh"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.out, "");
 }
 
 TEST(Completion, ZshAndFishHaveEveryCommandAndReadTheirScripts) {

@@ -9,10 +9,10 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/case_run.hpp"
-#include "app/command_line.hpp"
 #include "core/atomic_file.hpp"
 #include "dynamics/conversion.hpp"
 #include "identification/fit_response.hpp"
@@ -33,12 +33,7 @@ using identification::FittedMode;
 using identification::testing::Draw;
 
 Outcome command(std::vector<std::string> words) {
-  words.insert(words.begin(), "thinwall");
-  std::vector<const char*> argv;
-  for (const auto& word : words) argv.push_back(word.c_str());
-  std::ostringstream out, err;
-  const int code = run_command_line(static_cast<int>(argv.size()), argv.data(), run_case, out, err);
-  return {code, out.str(), err.str()};
+  return call(std::move(words), run_case);
 }
 
 /// Two points along x and y with modes that are not reciprocal, and noise.

@@ -4,15 +4,15 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/case_run.hpp"
-#include "app/command_line.hpp"
 #include "core/atomic_file.hpp"
 #include "io/frf/uff.hpp"
 #include "io/frf/uff_shapes.hpp"
+#include "tests/app/command_call.hpp"
 #include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::tests::inspect_universal_test {
@@ -21,17 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Answer {
-  int code = 0;
-  std::string out, err;
-};
-
-Answer inspected(const std::vector<std::string>& words) {
-  std::vector<const char*> argv{"thinwall", "inspect"};
-  for (const auto& word : words) argv.push_back(word.c_str());
-  std::ostringstream out, err;
-  const int code = app::run_command_line(static_cast<int>(argv.size()), argv.data(), app::run_case, out, err);
-  return {code, out.str(), err.str()};
+Outcome inspected(std::vector<std::string> words) {
+  words.insert(words.begin(), "inspect");
+  return call(std::move(words), app::run_case);
 }
 
 fs::path scratch(const std::string& name) {
@@ -71,7 +63,7 @@ fs::path roving_test(const fs::path& folder) {
   return folder / "test.dat";
 }
 
-void expect_lines(const Answer& answer, const std::vector<std::string>& lines) {
+void expect_lines(const Outcome& answer, const std::vector<std::string>& lines) {
   for (const std::string& line : lines)
     EXPECT_NE(answer.out.find(line), std::string::npos) << line << "\n" << answer.out << answer.err;
 }
@@ -80,7 +72,7 @@ void expect_lines(const Answer& answer, const std::vector<std::string>& lines) {
 
 TEST(InspectUniversal, TellsGeometryShapesFrfsAndTheReferenceOfARovingTest) {
   const fs::path folder = scratch("whole");
-  const Answer answer = inspected({roving_test(folder).string(), "--json", (folder / "facts.json").string()});
+  const Outcome answer = inspected({roving_test(folder).string(), "--json", (folder / "facts.json").string()});
   EXPECT_EQ(answer.code, 0) << answer.err;
   expect_lines(answer, {"geometry: 3 nodes within 250 x 100 x 50 mm, 1 trace line, 0 elements",
                         "     1    512.35 Hz    1.250 %  normal        3  node 2 in y",
@@ -102,10 +94,10 @@ TEST(InspectUniversal, APartThatCannotBeReadEndsWithCode6AndItsReason) {
       "    -1\n    15\n         1         0         0         8  4.00000E+01  0.00000E+00  0.00000E+00\n    -1\n";
   core::write_file_atomically(folder / "nodes.unv", nodes);
   const std::string file = (folder / "nodes.unv").string();
-  const Answer unstated = inspected({file});
+  const Outcome unstated = inspected({file});
   EXPECT_EQ(unstated.code, 6);
   expect_lines(unstated, {"not read: " + file, "state the unit of length"});
-  const Answer stated = inspected({file, "--unit", "mm"});
+  const Outcome stated = inspected({file, "--unit", "mm"});
   EXPECT_EQ(stated.code, 0) << stated.out;
   EXPECT_EQ(inspected({file, "--unit", "kg"}).code, 3);
 }

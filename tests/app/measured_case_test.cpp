@@ -9,10 +9,8 @@
 #include <fstream>
 #include <numbers>
 #include <random>
-#include <sstream>
 
 #include "app/case_run.hpp"
-#include "app/command_line.hpp"
 #include "case/problem.hpp"
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
@@ -25,6 +23,7 @@
 #include "setup/robot_tip.hpp"
 #include "setup/sensor_mass.hpp"
 #include "study/support/support_stage.hpp"
+#include "tests/app/command_call.hpp"
 #include "tests/case/case_text.hpp"
 #include "tests/case/problems_of.hpp"
 #include "tests/core/temporary_folder.hpp"
@@ -380,10 +379,8 @@ TEST(MeasuredCase, ARobotsFilesAreReadOnceInARun) {
       part_by_accelerances(folder.path, dynamics::direct_response(body({"P"}, 7), measured_axis()));
   core::write_file_atomically(folder.path / "case.toml", part + robot + sensor("robot", "R", "100 g") + lines +
                                                              "[[contacts]]\npart = \"P\"\nstiffness = \"1e6 N/m\"\n");
-  const std::string file = folder.path / "case.toml", results = folder.path / "results";
-  const char* const argv[] = {"thinwall", "run", file.c_str(), "--out", results.c_str()};
-  std::ostringstream text, errors;
-  ASSERT_EQ(run_command_line(5, argv, run_case, text, errors), 0) << errors.str();
+  const Outcome outcome = call({"run", folder.path / "case.toml", "--out", folder.path / "results"}, run_case);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
   const std::string log = core::read_file(folder.path / "results" / "run.log"), said = "the robot's sensor of 0.1 kg";
   const auto first = log.find(said);
   ASSERT_NE(first, std::string::npos) << log;

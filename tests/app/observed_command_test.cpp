@@ -48,13 +48,7 @@ std::string cut(const std::string& rpm, const std::string& mm, const std::string
 
 class ObservedCommand : public LobesCommand {
  protected:
-  [[nodiscard]] Outcome command(const std::vector<std::string>& words) const {
-    std::vector<const char*> argv{"thinwall"};
-    for (const auto& word : words) argv.push_back(word.c_str());
-    std::ostringstream out, err;
-    const int code = run_command_line(static_cast<int>(argv.size()), argv.data(), run_case, out, err);
-    return {code, out.str(), err.str()};
-  }
+  [[nodiscard]] Outcome command(const std::vector<std::string>& words) const { return call(words, run_case); }
   [[nodiscard]] nlohmann::json chart() const { return summary()["lobes"][0]; }
 };
 

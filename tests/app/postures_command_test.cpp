@@ -6,12 +6,11 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/case_run.hpp"
-#include "app/command_line.hpp"
 #include "core/atomic_file.hpp"
 #include "io/results/csv_table.hpp"
 #include "report/postures/posture_summary.hpp"
@@ -77,14 +76,9 @@ most_added = 0
   }
   [[nodiscard]] Outcome command(const std::vector<std::string>& more) const { return command_of("postures", more); }
   [[nodiscard]] Outcome command_of(const std::string& name, const std::vector<std::string>& more) const {
-    std::vector<std::string> words{"thinwall", name,    (temporary.path / "case.toml").string(),
-                                   "-q",       "--out", (temporary.path / "out").string()};
+    std::vector<std::string> words{name, temporary.path / "case.toml", "-q", "--out", temporary.path / "out"};
     words.insert(words.end(), more.begin(), more.end());
-    std::vector<const char*> argv;
-    for (const auto& word : words) argv.push_back(word.c_str());
-    std::ostringstream out, err;
-    const int code = run_command_line(static_cast<int>(argv.size()), argv.data(), run_case, out, err);
-    return {code, out.str(), err.str()};
+    return call(std::move(words), run_case);
   }
   [[nodiscard]] std::vector<double> numbers(const std::string& file, const std::string& column) const {
     const auto path = temporary.path / "out" / "postures" / file;

@@ -6,14 +6,15 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <utility>
 
 #include "app/case_run.hpp"
-#include "app/command_line.hpp"
 #include "app/reduce_command.hpp"
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
 #include "io/matrices/mat.hpp"
 #include "report/model_files.hpp"
+#include "tests/app/command_call.hpp"
 #include "tests/core/temporary_folder.hpp"
 #include "tests/processor_time.hpp"
 
@@ -72,17 +73,8 @@ fs::path scratch(const std::string& name) {
   return folder;
 }
 
-struct Answer {
-  int code = 0;
-  std::string out, err;
-};
-
-Answer command(const std::vector<std::string>& words) {
-  std::vector<const char*> argv{"thinwall"};
-  for (const auto& word : words) argv.push_back(word.c_str());
-  std::ostringstream out, err;
-  const int code = run_command_line(static_cast<int>(argv.size()), argv.data(), run_case, out, err);
-  return {code, out.str(), err.str()};
+Outcome command(std::vector<std::string> words) {
+  return call(std::move(words), run_case);
 }
 
 fs::path written_case(const fs::path& folder, const std::string& supports) {
@@ -95,7 +87,7 @@ fs::path written_case(const fs::path& folder, const std::string& supports) {
 TEST(Reduce, AFreePlateIsWrittenReadBackAndTrusted) {
   const fs::path folder = scratch("reduce_free");
   const std::string file = written_case(folder, "").string();
-  const Answer reduced = command({"reduce", file, "-o", (folder / "model").string(), "--from", "100", "-q"});
+  const Outcome reduced = command({"reduce", file, "-o", (folder / "model").string(), "--from", "100", "-q"});
   ASSERT_EQ(reduced.code, 0) << reduced.err;
   EXPECT_NE(reduced.out.find("nothing found against this model"), std::string::npos) << reduced.out;
   const PlacedModel model = read_model(folder / "model");
@@ -105,7 +97,7 @@ TEST(Reduce, AFreePlateIsWrittenReadBackAndTrusted) {
   EXPECT_EQ(model.model.C, dense.C);
   ASSERT_EQ(model.positions.size(), 3U);
   EXPECT_LT((model.positions.at("A") - Eigen::Vector3d(0.04, 0.04, 0.006)).norm(), 1e-12);
-  const Answer inspected = command(
+  const Outcome inspected = command(
       {"inspect", (folder / "model").string(), "--rigid-motions", "6", "--json", (folder / "inspected.json").string()});
   EXPECT_EQ(inspected.code, 0) << inspected.out << inspected.err;
   const auto report = nlohmann::json::parse(core::read_file(folder / "inspected.json"));
@@ -148,7 +140,7 @@ TEST(Reduce, EveryMethodWithMatricesIsWritten) {
   const std::string file = written_case(folder, "[[part.supports]]\non = \"x_min\"\n").string();
   for (const std::string method : {"guyan", "craig_bampton", "characteristic_constraint_modes", "rubin", "macneal",
                                    "craig_chang", "dual_craig_bampton"}) {
-    const Answer reduced = command(
+    const Outcome reduced = command(
         {"reduce", file, "-o", (folder / method).string(), "--method", method, "--modes", "12", "--to", "2000", "-q"});
     EXPECT_EQ(reduced.code, 0) << method << reduced.err;
     EXPECT_TRUE(fs::exists(folder / method / "model.mat")) << method;
@@ -160,7 +152,7 @@ TEST(Reduce, WhatCannotBeReducedOrInspectedIsSaid) {
   const fs::path folder = scratch("reduce_bad");
   const std::string file = written_case(folder, "").string();
   const auto refused = [&](const std::vector<std::string>& words, int code, const std::string& part) {
-    const Answer answer = command(words);
+    const Outcome answer = command(words);
     EXPECT_EQ(answer.code, code) << answer.err;
     EXPECT_NE(answer.err.find(part), std::string::npos) << answer.err;
   };
@@ -187,7 +179,7 @@ TEST(Reduce, OptionsAndFolderAreRefusedBeforeAnythingIsComputed) {
   const auto refused = [&](std::vector<std::string> words, int code, const std::string& part) {
     words.insert(words.begin(), fine.begin(), fine.end());
     const double start = tests::processor_seconds();
-    const Answer answer = command(words);
+    const Outcome answer = command(words);
     EXPECT_EQ(answer.code, code) << answer.err;
     EXPECT_NE(answer.err.find(part), std::string::npos) << answer.err;
     EXPECT_EQ(answer.err.find('\n'), answer.err.size() - 1) << answer.err;
@@ -220,7 +212,7 @@ dofs = "dofs.csv"
 [response]
 to = "4000 Hz"
 )");
-  const Answer answer = command({"reduce", own.string(), "-o", own.string(), "--modes", "2"});
+  const Outcome answer = command({"reduce", own.string(), "-o", own.string(), "--modes", "2"});
   EXPECT_EQ(answer.code, 3) << answer.err;
   EXPECT_NE(answer.err.find("choose another folder with -o"), std::string::npos) << answer.err;
   EXPECT_EQ(core::read_file(own / "stiffness.mtx"), before);
@@ -245,7 +237,7 @@ dofs = "out/dofs.csv"
 [response]
 to = "4000 Hz"
 )");
-  const Answer answer = command({"reduce", folder.string(), "-o", (folder / "out").string(), "--modes", "2"});
+  const Outcome answer = command({"reduce", folder.string(), "-o", (folder / "out").string(), "--modes", "2"});
   EXPECT_EQ(answer.code, 3) << answer.err;
   EXPECT_NE(answer.err.find("dofs.csv"), std::string::npos) << answer.err;
   EXPECT_EQ(core::read_file(folder / "out" / "dofs.csv"), before);
@@ -267,10 +259,10 @@ struct TwoMasses {
   void write(const std::string& file, const std::string& entries) const {
     core::write_file_atomically(folder / file, symmetric_head + entries);
   }
-  [[nodiscard]] Answer run() const {
+  [[nodiscard]] Outcome run() const {
     return command({"run", folder.string(), "--out", (folder / "out").string(), "-q"});
   }
-  [[nodiscard]] Answer inspect(const std::vector<std::string>& more) const {
+  [[nodiscard]] Outcome inspect(const std::vector<std::string>& more) const {
     std::vector<std::string> words{"inspect", "--stiffness", (folder / "k.mtx").string(), "--dofs",
                                    (folder / "dofs.csv").string()};
     words.insert(words.end(), more.begin(), more.end());
@@ -278,7 +270,7 @@ struct TwoMasses {
   }
 };
 
-void expect_answer(const Answer& answer, int code, const std::string& part) {
+void expect_answer(const Outcome& answer, int code, const std::string& part) {
   EXPECT_EQ(answer.code, code) << answer.err << answer.out;
   EXPECT_NE((answer.err + answer.out).find(part), std::string::npos) << answer.err << answer.out;
 }
@@ -316,7 +308,7 @@ TEST(MatricesOfAPart, ThatCannotBeAreToldByFileAndDof) {
   expect_answer(part.run(), 4, "m.mtx: the mass matrix is indefinite");
   part.write("m.mtx", "2 2 2\n1 1 1\n2 2 1\n");
   part.write("k.mtx", "2 2 3\n1 1 200\n2 1 -100\n2 2 10\n");
-  const Answer stiffness = part.run();
+  const Outcome stiffness = part.run();
   expect_answer(stiffness, 4, "k.mtx: the stiffness matrix is indefinite");
   EXPECT_NE(stiffness.err.find("most at B.x; export the matrix again"), std::string::npos) << stiffness.err;
   EXPECT_EQ(stiffness.err.find("element"), std::string::npos) << stiffness.err;
@@ -335,7 +327,7 @@ TEST(Reduce, RigidMotionsAreCountedWithoutPlaces) {
                     "--dofs", (folder / "dofs.csv").string(), "--unit", "m", "--mass-unit", "kg", "--rigid-motions",
                     motions});
   };
-  const Answer one = inspected("1"), none = inspected("0");
+  const Outcome one = inspected("1"), none = inspected("0");
   EXPECT_EQ(one.code, 0) << one.err << one.out;
   EXPECT_NE(one.out.find("modes counted as free: 1"), std::string::npos) << one.out;
   EXPECT_EQ(none.code, 6) << none.out;

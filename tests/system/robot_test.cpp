@@ -5,10 +5,9 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <sstream>
 
-#include "app/command_line.hpp"
 #include "core/atomic_file.hpp"
+#include "tests/app/command_call.hpp"
 #include "tests/system/run_in_folder.hpp"
 
 namespace thinwall::tests::robot_test {
@@ -64,10 +63,8 @@ const std::string reference_posture = "[robot.posture]\njoints = [0, 0.2, 1.2, 1
 TEST(Robot, AnArmAloneIsACaseAndHasTheReferencesModesAndStiffness) {
   const fs::path out = scratch("arm_alone");
   core::write_file_atomically(out / "case.toml", huynh_arm + reference_posture);
-  const std::string file = (out / "case.toml").string(), results = (out / "results").string();
-  const char* const argv[] = {"thinwall", "robot", file.c_str(), "--out", results.c_str()};
-  std::ostringstream text, errors;
-  ASSERT_EQ(run_command_line(5, argv, run_case, text, errors), 0) << errors.str();
+  const Outcome outcome = call({"robot", out / "case.toml", "--out", out / "results"}, run_case);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
   const fs::path table = out / "results" / "robot" / "postures.csv";
   const double hz[] = {19.703627, 27.303195, 56.800864, 283.103294};
   const double ratio[] = {0.0134127, 0.0238637, 0.0480681, 0.5935355};
@@ -79,7 +76,7 @@ TEST(Robot, AnArmAloneIsACaseAndHasTheReferencesModesAndStiffness) {
   for (int i = 0; i < 3; ++i)
     EXPECT_NEAR(column(table, std::string("stiffness_") + "xyz"[i] + "_n_per_m")[0] * compliance[i], 1.0, 5e-7);
   EXPECT_TRUE(fs::exists(out / "results" / "robot" / "postures.vtu"));
-  EXPECT_NE(text.str().find("19.70"), std::string::npos) << text.str();
+  EXPECT_NE(outcome.out.find("19.70"), std::string::npos) << outcome.out;
   const auto summary = run(huynh_arm + reference_posture, out / "run");
   EXPECT_NEAR(summary["robot"]["static_stiffness_n_per_m"][2].get<double>() * compliance[2], 1.0, 5e-7);
   EXPECT_TRUE(fs::exists(out / "run" / "frf" / "robot.csv"));

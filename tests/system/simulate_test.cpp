@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/case_run.hpp"
-#include "app/command_line.hpp"
 #include "core/atomic_file.hpp"
+#include "tests/app/command_call.hpp"
 #include "tests/system/benchmark_tool.hpp"
 #include "tests/system/run_in_folder.hpp"
 
@@ -27,22 +27,19 @@ to = "20000 rpm"
 )";
 }
 
-struct Outcome {
+struct Simulated {
   std::string text;  ///< that the command printed
   int code = 0;
 };
 
 /// Simulates a case in `folder`, with results in its folder "out".
-Outcome simulate(const fs::path& folder, const std::vector<std::string>& more, const std::string& text = tool_case()) {
+Simulated simulate(const fs::path& folder, const std::vector<std::string>& more,
+                   const std::string& text = tool_case()) {
   std::ofstream(folder / "case.toml") << text;
-  std::vector<std::string> words{
-      "thinwall", "simulate", (folder / "case.toml").string(), "--out", (folder / "out").string(), "-q"};
+  std::vector<std::string> words{"simulate", folder / "case.toml", "--out", folder / "out", "-q"};
   words.insert(words.end(), more.begin(), more.end());
-  std::vector<const char*> argv;
-  for (const std::string& word : words) argv.push_back(word.c_str());
-  std::ostringstream out, err;
-  const int code = app::run_command_line(static_cast<int>(argv.size()), argv.data(), app::run_case, out, err);
-  return {out.str() + err.str(), code};
+  const Outcome outcome = call(std::move(words), app::run_case);
+  return {outcome.out + outcome.err, outcome.code};
 }
 
 TEST(Simulate, TellsTheMotionOnBothSidesOfTheBoundary) {
@@ -179,10 +176,8 @@ TEST(Simulate, ItsFiguresAreNotExpectedOfLobes) {
   std::ofstream(folder / "expected.toml")
       << "[[expect]]\nname = \"speed\"\nquantity = "
          "\"simulation.points[0].spindle_speed_rpm\"\nvalue = 11000\nrelative = 1e-9\norigin = \"here\"\n";
-  const std::string file = (folder / "case.toml").string(), out = (folder / "out").string();
-  const char* words[] = {"thinwall", "lobes", file.c_str(), "--out", out.c_str(), "-q"};
-  std::ostringstream said, err;
-  EXPECT_EQ(app::run_command_line(6, words, app::run_case, said, err), 0) << said.str() << err.str();
+  const Outcome outcome = call({"lobes", folder / "case.toml", "--out", folder / "out", "-q"}, app::run_case);
+  EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
 }
 
 /// A problem is told of the option that the user gave, not of a key that stands nowhere.
