@@ -10,8 +10,8 @@ import { compose } from './compose.mjs';
 
 /**
  * A function that calls `see` with the page of a document, all drawn; whatever went wrong on the page fails the test.
- * Its browser is there while the tests of a file run. Without WebGL the moving shapes are not drawn, which takes seven
- * tenths of the time.
+ * Its browser is there while the tests of a file run. Without WebGL it does not draw the moving shapes, and a test takes
+ * seven tenths of the time.
  */
 export function shownIn({ webgl }) {
   const folder = mkdtempSync(path.join(os.tmpdir(), 'thinwall-shown-'));
