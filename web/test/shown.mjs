@@ -10,8 +10,8 @@ import { compose } from './compose.mjs';
 
 /**
  * A function that calls `see` with the page of a document, all drawn; whatever went wrong on the page fails the test.
- * Its browser is there while the tests of a file run. Without WebGL it does not draw the moving shapes, and a test takes
- * seven tenths of the time.
+ * Its browser is there while the tests of a file run. Without WebGL a page has a still picture in place of the moving
+ * shapes, and its tests take seven tenths of the time.
  */
 export function shownIn({ webgl }) {
   const folder = mkdtempSync(path.join(os.tmpdir(), 'thinwall-shown-'));
@@ -32,5 +32,5 @@ export function shownIn({ webgl }) {
   };
 }
 
-/** The first sentence below a section's title. */
+/** The paragraph below a section's title. */
 export const lead = (page, id) => page.locator(`#${id} .lead`).first().textContent();
